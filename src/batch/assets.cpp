@@ -28,6 +28,16 @@ fs::path fixed_prefix(const fs::path& pattern) {
     return prefix;
 }
 
+/// For a pattern without matches.
+std::string hint_for_pattern(const std::string& pattern, const fs::path& fixed) {
+    std::error_code unknown;
+    if (!fixed.empty() && !fs::is_directory(fixed, unknown))
+        return fmt::format("there is no folder '{}'", fixed.string());
+    if (pattern.find("**") != pattern.npos) return {};
+    const fs::path below = fixed / "**" / fs::path(pattern).lexically_relative(fixed.empty() ? "." : fixed);
+    return fmt::format("--input '{}' also searches the folders below", below.string());
+}
+
 bool holds_something(const fs::path& folder) {
     std::error_code error;
     return fs::directory_iterator(folder, error) != fs::directory_iterator() && !error;
@@ -71,13 +81,10 @@ class AssetFinder {
     /// A pattern without matches is allowed if earlier assets must be pruned. If the folder itself is
     /// unreadable (its disk is missing), that is no reason to prune.
     void add_nothing(const std::string& pattern) {
-        std::string hint =
-            is_glob(pattern)
-                ? "** matches any number of folders; the shell must not expand the pattern: quote it"
-                : "";
+        const fs::path fixed = fixed_prefix(pattern);
+        const fs::path folder = fixed.empty() ? fs::path(".") : fixed;
+        std::string hint = is_glob(pattern) ? hint_for_pattern(pattern, fixed) : "";
         if (was_there(pattern)) {
-            const fs::path fixed = fixed_prefix(pattern);
-            const fs::path folder = fixed.empty() ? fs::path(".") : fixed;
             if (holds_something(folder)) return;
             hint = fmt::format("nothing is pruned while '{}' is missing or empty: is its disk there?",
                                folder.string());

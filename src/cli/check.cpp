@@ -43,6 +43,7 @@ Command check_command() {
                 add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
+                    take_input(*pipelines, *options, invocation.line);
                     return check(*pipelines, *options, invocation.line, console);
                 };
             }};

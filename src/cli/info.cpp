@@ -3,6 +3,7 @@
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
+#include "batch/batch.hpp"
 #include "cli/command.hpp"
 #include "cli/command_steps.hpp"
 #include "cli/confine.hpp"
@@ -25,7 +26,8 @@ namespace {
 
 constexpr const char* info_examples =
     R"(The names are those of validate, ensure, when and the report. A property that does not apply (the volume of an
-open mesh) is null. With several files --json prints a list.
+open mesh) is null. With several files --json prints a list. Files that cannot be read are left out of it, and the
+exit code is that of the worst.
 
 Examples
   facetmill info scan.ply
@@ -169,8 +171,9 @@ std::string as_text(const std::string& name, const FileInfo& info) {
     return text + row("face_kinds", kinds_text(info.kinds));
 }
 
-Json json_of(const FileInfo& info) {
-    Json json = report::scene_json(info.scene, info.properties);
+Json json_of(const std::string& mesh, const FileInfo& info) {
+    Json json = {{"file", mesh}};
+    json.update(report::scene_json(info.scene, info.properties));
     json["components_detail"] = report::list_json(info.components, report::component_fields());
     json["components_omitted"] = info.omitted();
     json["face_kinds"] = face_kinds_fields().json(&info.kinds);
@@ -238,20 +241,29 @@ int info(const InfoOptions& options, const Console& console) {
     std::string text;
     std::vector<Picture> pictures;
     CommandSteps steps(console, options.meshes.size());
+    int code = 0;
     for (const auto& mesh : options.meshes) {
         steps.next(mesh);
-        const FileInfo info = info_of(mesh, options, console, pictures);
-        if (options.json)
-            all.push_back(json_of(info));
-        else
-            text += as_text(mesh, info);
+        try {
+            const FileInfo info = info_of(mesh, options, console, pictures);
+            if (options.json)
+                all.push_back(json_of(mesh, info));
+            else
+                text += as_text(mesh, info);
+        } catch (const Error& e) { // the other files are still shown
+            if (options.meshes.size() == 1) throw;
+            console.diagnostics(e);
+            code = batch::worse_exit_code(code, static_cast<int>(e.kind()));
+        }
     }
     if (options.json)
-        text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (!options.picture.empty()) write_picture(pictures, options.picture);
+        text =
+            (options.meshes.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) +
+            "\n";
+    if (!pictures.empty()) write_picture(pictures, options.picture);
     steps.done();
     options.json ? print(text) : show(text);
-    return 0;
+    return code;
 }
 
 } // namespace

@@ -10,6 +10,8 @@
 #include "cli/depfile.hpp"
 #include "cli/warning_limiter.hpp"
 #include "docs/ready.hpp"
+#include "io/codec.hpp"
+#include "io/other_formats.hpp"
 #include "io/outputs/output_files.hpp"
 #include "io/outputs/outputs.hpp"
 #include "options/byte_count.hpp"
@@ -161,8 +163,9 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                        "The number of threads, which does not change the result. Default: all cores.");
     arguments.add("-o,--output-dir", &options.output_dir,
                   "The folder that the paths of outputs are relative to. Default: the working directory.");
-    arguments.add("--report", &options.reports,
-                  "Also write a report: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
+    arguments.add(
+        "--report", &options.reports,
+        "Also write a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
     arguments.add("--timings", &options.timings,
                   "Write times, memory and threads to F.json, or the report's page with them to F.html.\n"
                   "Reports leave them out, to be reproducible.");
@@ -203,6 +206,18 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
     return pairs;
 }
 
+/// The path of a report or of times relative to --output-dir: "checked/r.json" with -o checked is "r.json".
+std::string below_output_dir(const std::string& path, const std::string& folder) {
+    if (folder.empty() || fs::path(path).is_absolute()) return path;
+    const fs::path below = fs::absolute(path).lexically_normal().lexically_relative(
+        (fs::absolute(folder) / "").lexically_normal());
+    return below.empty() || *below.begin() == ".." ? path : below.string();
+}
+
+std::string timings_of(const PipelineOptions& options) {
+    return below_output_dir(options.timings, options.output_dir);
+}
+
 /// A misspelled id would silently disable a gate.
 void check_ids(const std::vector<std::string>& given, const std::string& option, const CommandLine& line,
                Problems& problems) {
@@ -229,7 +244,8 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     check_ids(options.allowed, "--allow", line, problems);
     settings.allowed = options.allowed;
     settings.working_directory = fs::current_path();
-    settings.extra_reports = options.reports;
+    for (const auto& report : options.reports)
+        settings.extra_reports.push_back(below_output_dir(report, options.output_dir));
     for (auto file = options.presets.rbegin(); file != options.presets.rend(); ++file) {
         try {
             pipeline::add_preset(*file, settings, problems);
@@ -238,7 +254,8 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
         }
     }
     if (!options.timings.empty())
-        settings.others.push_back({settings.places.output(options.timings), line.find("--timings"), true});
+        settings.others.push_back(
+            {settings.places.output(timings_of(options)), line.find("--timings"), true});
     if (!options.depfile.empty()) settings.others.push_back({options.depfile, line.find("--depfile"), true});
     return settings;
 }
@@ -256,10 +273,38 @@ namespace {
 
 } // namespace
 
+void take_input(std::vector<std::string>& pipelines, PipelineOptions& options, const CommandLine& line) {
+    const auto is_pipeline = [](const std::string& name) {
+        const auto* codec = io::codec_for(name);
+        const bool is_yaml = name.ends_with(".yaml") || name.ends_with(".yml");
+        return is_yaml || (!(codec && codec->read) && io::hint_for_reading(name).empty());
+    };
+    const auto first = std::stable_partition(pipelines.begin(), pipelines.end(), is_pipeline);
+    if (first == pipelines.end()) return;
+    const std::string mesh = *first;
+    if (first == pipelines.begin())
+        throw Error(
+            ErrorKind::usage, "E-ARGUMENT", fmt::format("'{}' is a mesh, not a pipeline", mesh),
+            fmt::format("facetmill run web {0} makes a GLB of it; facetmill info {0} shows its properties",
+                        for_shell(mesh)),
+            line.value(mesh));
+    if (pipelines.end() - first > 1) {
+        std::string batch = fmt::format("facetmill batch {}", for_shell(pipelines.front()));
+        for (auto one = first; one != pipelines.end(); ++one) batch += " --input " + for_shell(*one);
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    fmt::format("a run takes one mesh, found {}", pipelines.end() - first), batch + " -o out",
+                    line.value(*(first + 1)));
+    }
+    options.defines.push_back("input=" + mesh);
+    pipelines.erase(first, pipelines.end());
+}
+
 bool is_pipeline_file(const std::string& pipeline) {
     if (pipeline == "-") return false;
     std::error_code trouble;
-    return fs::exists(pipeline, trouble) || (trouble && !docs::ready_pipeline(pipeline));
+    if (docs::ready_pipeline(pipeline))
+        return fs::exists(pipeline, trouble) && !fs::is_directory(pipeline, trouble);
+    return fs::exists(pipeline, trouble) || trouble;
 }
 
 std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline) {
@@ -430,7 +475,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         const std::string text = options.timings.ends_with(".html")
                                      ? report::to_html_with_times(record, view)
                                      : report::timings_json(record).dump(2) + "\n";
-        io::write_now(plan.places.output(options.timings), std::as_bytes(std::span(text)));
+        io::write_now(plan.places.output(timings_of(options)), std::as_bytes(std::span(text)));
     }
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,

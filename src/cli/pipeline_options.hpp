@@ -49,8 +49,13 @@ void add_run_options(Arguments& arguments, PipelineOptions& options);
 [[nodiscard]] pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
                                                    Problems& problems);
 
+/// Makes a mesh among the pipelines, as in "run web part.stl", the value of the param input. Throws usage for
+/// several meshes, and for a mesh without a pipeline.
+void take_input(std::vector<std::string>& pipelines, PipelineOptions& options, const CommandLine& line);
+
 /// Whether the text names a file, and not a ready pipeline or standard input. An inaccessible file counts,
-/// because opening it reports the reason.
+/// because opening it reports the reason. A folder, such as the outputs of an earlier run, does not hide a
+/// ready pipeline.
 bool is_pipeline_file(const std::string& pipeline);
 
 /// The text and name of a file, of standard input ("-"), or of a ready pipeline. Throws missing if it does

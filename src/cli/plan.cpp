@@ -17,7 +17,7 @@ constexpr const char* plan_examples = R"(Examples
 
 struct PlanOptions {
     PipelineOptions common;
-    std::string pipeline;
+    std::vector<std::string> pipelines; ///< one, after the mesh is taken
     bool inputs = false, outputs = false, json = false;
 };
 
@@ -27,9 +27,15 @@ std::string lines(const std::vector<std::filesystem::path>& paths) {
     return text;
 }
 
-int plan(const PlanOptions& options, const CommandLine& line, const Console& console) {
+int plan(PlanOptions& options, const CommandLine& line, const Console& console) {
+    take_input(options.pipelines, options.common, line);
+    if (options.pipelines.size() > 1)
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    fmt::format("plan takes one pipeline, found {}", options.pipelines.size()),
+                    "plan them one by one", line.value(options.pipelines[1]));
     Problems problems;
-    const auto plan = plan_of(options.pipeline, plan_settings(options.common, line, problems), problems);
+    const auto plan =
+        plan_of(options.pipelines.front(), plan_settings(options.common, line, problems), problems);
     settle(problems, console);
     const bool files_only = options.inputs || options.outputs;
     start_programs(plan);
@@ -55,29 +61,29 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
 } // namespace
 
 Command plan_command() {
-    return {
-        "plan",
-        "Shows what a pipeline would do, with everything resolved, without running it.",
-        plan_examples,
-        {},
-        [](Arguments& arguments, Console& console) {
-            auto options = std::make_shared<PlanOptions>();
-            arguments.add("PIPELINE", &options->pipeline, "A YAML file, - or a ready pipeline.").required();
-            arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
-            arguments.add("--outputs", &options->outputs,
-                          "Only the files it writes, one per line; with --inputs, after an empty line.");
-            arguments.add("--json", &options->json, "As JSON.");
-            arguments.add(
-                "-o,--output-dir", &options->common.output_dir,
-                "The folder that the paths of outputs are relative to. Default: the working directory.");
-            add_value_options(arguments, options->common);
-            add_cell_options(arguments, options->common);
-            add_sandbox_option(arguments, options->common.sandbox);
-            add_message_options(arguments, console);
-            return [=, &console](const Invocation& invocation) {
-                return plan(*options, invocation.line, console);
-            };
-        }};
+    return {"plan",
+            "Shows what a pipeline would do, with everything resolved, without running it.",
+            plan_examples,
+            {},
+            [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<PlanOptions>();
+                arguments.add("PIPELINE", &options->pipelines, "A YAML file or ready pipeline; a mesh.")
+                    .required();
+                arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
+                arguments.add("--outputs", &options->outputs,
+                              "Only the files it writes, one per line; with --inputs, after an empty line.");
+                arguments.add("--json", &options->json, "As JSON.");
+                arguments.add(
+                    "-o,--output-dir", &options->common.output_dir,
+                    "The folder that the paths of outputs are relative to. Default: the working directory.");
+                add_value_options(arguments, options->common);
+                add_cell_options(arguments, options->common);
+                add_sandbox_option(arguments, options->common.sandbox);
+                add_message_options(arguments, console);
+                return [=, &console](const Invocation& invocation) {
+                    return plan(*options, invocation.line, console);
+                };
+            }};
 }
 
 } // namespace facetmill::cli

@@ -1,8 +1,11 @@
 // facetmill render: renders a picture of a mesh file with the stage of that name.
 
+#include "base/text/words.hpp"
 #include "cli/pipe_syntax.hpp"
 #include "cli/pipeline_options.hpp"
 #include "docs/stages.hpp"
+#include "geometry/quantities/quantities.hpp"
+#include "io/codec.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -20,6 +23,7 @@ Examples
   facetmill render part.stl -o part.png --view front --edges all --background white
   facetmill render scan.ply -o around.png --views turntable --width 400 --height 400
   facetmill render before.glb after.glb -o both.png --width 800 --height 800
+  facetmill render before.stl after.glb -o both.png --unit mm --up z     (of files that state none; mm,m: of each)
   facetmill render part.stl -o walls.png --attribute wall_thickness
   facetmill render low.glb high.glb -o deviation.png --attribute deviation
 
@@ -27,6 +31,8 @@ Examples
 
 struct RenderCommandOptions {
     std::string output;
+    std::string unit;             ///< of files that state none, for both or as "mm,m"; or of the attribute
+    std::vector<std::string> ups; ///< of files that state none: for both, or one for each
     PipelineOptions run;
 };
 
@@ -63,6 +69,67 @@ void parse_own(const Arguments& arguments, std::vector<std::string> words) {
     }
 }
 
+/// The units of --unit if they are of files; none if it is the unit of an attribute ("K").
+std::vector<std::string> units_of_files(const std::string& unit) {
+    std::vector<std::string> units;
+    for (const auto& one : split_at_commas(unit)) units.emplace_back(one);
+    const auto is_unit = [](const std::string& one) {
+        const auto known = unit_named(one);
+        return known && *known != Unit::unknown;
+    };
+    return std::all_of(units.begin(), units.end(), is_unit) ? units : std::vector<std::string>{};
+}
+
+/// The unit and the up axis that --unit and --up give to the first or the second file, where it states none.
+/// Values as words of pipe.
+struct GivenConvention {
+    std::string unit, up;
+
+    GivenConvention(const std::string& mesh, bool is_first, const std::vector<std::string>& units,
+                    const std::vector<std::string>& ups) {
+        if (units.empty() && ups.empty()) return;
+        io::FileHeader header;
+        std::error_code unknown;
+        if (mesh != "-" && std::filesystem::is_regular_file(mesh, unknown))
+            header = io::file_header(io::Input::open(mesh), {});
+        const auto said = [&](const std::vector<std::string>& all) {
+            return all.empty() ? std::string() : is_first ? all.front() : all.back();
+        };
+        if (header.unit == Unit::unknown) unit = said(units);
+        if (header.up == UpAxis::unknown) up = said(ups);
+    }
+
+    void add_to(std::vector<std::string>& words) const {
+        if (!unit.empty()) words.insert(words.end(), {"--unit", unit});
+        if (!up.empty()) words.insert(words.end(), {"--up", up});
+    }
+    bool empty() const { return unit.empty() && up.empty(); }
+};
+
+/// The equivalent one-liner, which messages show. words: the files, and options of the stage.
+std::vector<std::string> as_one_liner(const RenderCommandOptions& options,
+                                      const std::vector<std::string>& words) {
+    const auto units = units_of_files(options.unit);
+    auto rest = words.begin() + 1;
+    const bool two = rest != words.end() && !rest->starts_with("-");
+    std::vector<std::string> line{"pipe", "load", words.front()};
+    GivenConvention(words.front(), true, units, options.ups).add_to(line);
+    // A second file without a unit or up axis is taken to have those of the scene.
+    if (const GivenConvention second(two ? *rest : "-", false, units, options.ups); two && !second.empty()) {
+        line.insert(line.end(), {"!", "transform"});
+        second.add_to(line);
+    }
+    line.insert(line.end(), {"!", "render", "--path", options.output});
+    if (two) line.insert(line.end(), {"--with", *rest++});
+    line.insert(line.end(), rest, words.end());
+    const auto attribute = std::find(words.begin(), words.end(), "--attribute");
+    const bool is_stored = attribute != words.end() && attribute + 1 != words.end() &&
+                           quantity_called(*(attribute + 1)) == nullptr;
+    if (!options.unit.empty() && (units.empty() || is_stored))
+        line.insert(line.end(), {"--unit", units.empty() ? options.unit : units.front()});
+    return line;
+}
+
 /// Refuses a comparison with the loaded scene, because no stage between load and render changes it.
 void require_other_mesh(const pipeline::Plan& plan) {
     const auto& step = plan.steps.back();
@@ -87,16 +154,7 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
                         ? "render needs a mesh file before its options"
                         : "render needs -o FILE.png",
                     "for example facetmill render part.stl -o part.png", invocation.line.mark(0));
-    // The equivalent one-liner, which messages show.
-    std::vector<std::string> words_of_pipe{"pipe",   "load",   words.front(), "!",
-                                           "render", "--path", options.output};
-    auto rest = words.begin() + 1;
-    if (rest != words.end() && !rest->starts_with("-")) {
-        words_of_pipe.insert(words_of_pipe.end(), {"--with", *rest});
-        ++rest;
-    }
-    words_of_pipe.insert(words_of_pipe.end(), rest, words.end());
-    const CommandLine line(std::move(words_of_pipe));
+    const CommandLine line(as_one_liner(options, words));
     Problems problems;
     auto settings = plan_settings(options.run, line, problems);
     settings.name = "render";
@@ -112,25 +170,34 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
 } // namespace
 
 Command render_command() {
-    return {"render",
-            "Renders a PNG image of a mesh file, or of two beside each other.",
-            render_examples,
-            "MESH [MESH] [OPTIONS OF THE STAGE]",
-            [](Arguments& arguments, Console& console) {
-                auto options = std::make_shared<RenderCommandOptions>();
-                arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.")
-                    .followed_by("FILE.png");
-                add_threads_option(arguments, options->run.threads,
-                                   "The number of threads. Default: all cores.");
-                add_asset_root_option(arguments, options->run.asset_roots);
-                add_sandbox_option(arguments, options->run.sandbox);
-                add_message_options(arguments, console);
-                return [=, &arguments, &console](const Invocation& invocation) {
-                    return render(*options, arguments, invocation, console);
-                };
-            },
-            false,
-            "render"};
+    return {
+        "render",
+        "Renders a PNG image of a mesh file, or of two beside each other.",
+        render_examples,
+        "MESH [MESH] [OPTIONS OF THE STAGE]",
+        [](Arguments& arguments, Console& console) {
+            auto options = std::make_shared<RenderCommandOptions>();
+            arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.")
+                .followed_by("FILE.png");
+            arguments
+                .add("--unit", &options->unit,
+                     "The unit of a file that states none; mm,m: of each of two. Also that of a stored "
+                     "attribute, for the legend.")
+                .followed_by("UNIT");
+            arguments
+                .add("--up", &options->ups, "The up axis of a file that states none; z,y: of each of two.")
+                .separated_by_commas_alone()
+                .one_of({"y", "z"});
+            add_threads_option(arguments, options->run.threads, "The number of threads. Default: all cores.");
+            add_asset_root_option(arguments, options->run.asset_roots);
+            add_sandbox_option(arguments, options->run.sandbox);
+            add_message_options(arguments, console);
+            return [=, &arguments, &console](const Invocation& invocation) {
+                return render(*options, arguments, invocation, console);
+            };
+        },
+        false,
+        "render"};
 }
 
 } // namespace facetmill::cli

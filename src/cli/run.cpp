@@ -16,10 +16,11 @@ namespace {
 
 constexpr const char* run_examples =
     R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a ready pipeline (quickstart, scan-to-web, web,
-lod-chain, repair).
+lod-chain, repair). A mesh file after it is the value of its param input.
 
 Examples
   facetmill run scan.yaml
+  facetmill run web lamp.obj
   facetmill run scan-to-web -D input=scan.ply -D keep=10% --output-dir web
   facetmill run scan.yaml --set simplify.ratio=5% --report scan.html --strict
   facetmill run scan.yaml --depfile scan.d          (for Make and Ninja)
@@ -138,7 +139,8 @@ int code_of(const Console& console, Body&& body) {
     Watch last;
     for (std::size_t number = 1;; ++number) {
         Watch watch;
-        for (const auto& pipeline : pipelines) watch.add(pipeline);
+        for (const auto& pipeline : pipelines)
+            if (is_pipeline_file(pipeline)) watch.add(pipeline);
         for (const auto& preset : options.presets) watch.add(preset);
         std::optional<Planned> planned;
         int code = code_of(console, [&] {
@@ -172,7 +174,8 @@ Command run_command() {
     return {"run", "Runs pipelines.", run_examples, {}, [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
-                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();
+                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines; then a mesh.")
+                    .required();
                 auto watch = std::make_shared<bool>(false);
                 arguments.add("--watch", watch.get(),
                               "Run again whenever a pipeline or a file that it reads changes; Ctrl-C ends.");
@@ -180,6 +183,7 @@ Command run_command() {
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
+                    take_input(*pipelines, *options, invocation.line);
                     options->cells = cell_settings(*options, invocation.line);
                     if (*watch) run_and_watch(*pipelines, *options, invocation.line, console);
                     return run_all(*pipelines, plan_all(*pipelines, *options, invocation.line, {}), *options,

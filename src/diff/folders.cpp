@@ -280,9 +280,8 @@ std::string to_markdown(const FolderComparison& c, const std::string& path_a, co
             ++same;
             continue;
         }
-        const std::string text = markdown_escaped(p.paths.text());
-        const std::string name = p.page.empty() ? text : fmt::format("[{}]({})", text, address(p.page));
-        rows.push_back({to_string(p.outcome), name, percent_text(p),
+        // No links to the pages of pairs: in a comment of a pull request these files do not exist.
+        rows.push_back({to_string(p.outcome), markdown_escaped(p.paths.text()), percent_text(p),
                         change_text(p, p.faces_a, p.faces_b, grouped),
                         change_text(p, p.bytes_a, p.bytes_b, sized), markdown_escaped(more_of(p))});
     }

@@ -15,7 +15,7 @@
 namespace facetmill::io {
 
 Role role_of(const std::string& name, int components, const AttributeData& data) {
-    const bool floats = data.index() <= 1, small = data.index() == 2 || data.index() == 4; // uint8, uint16
+    const bool floats = data.index() <= 1, small = data.index() == 2 || data.index() == 4;
     const auto is = [&](std::string_view stem) { return name.starts_with(stem); };
     if (name == "NORMAL" && components == 3 && floats) return Role::normal;
     if (name == "TANGENT" && components == 4 && floats) return Role::tangent;
@@ -23,7 +23,7 @@ Role role_of(const std::string& name, int components, const AttributeData& data)
     if (is("COLOR_") && (components == 3 || components == 4) && (floats || small)) return Role::colour;
     if (is("JOINTS_") && components == 4 && small) return Role::joints;
     if (is("WEIGHTS_") && components == 4 && (floats || small)) return Role::weights;
-    if (is("_FEATURE_ID_") && components == 1) return Role::index; // numbers of features in glTF
+    if (is("_FEATURE_ID_") && components == 1) return Role::index; // feature numbers in glTF
     return data.index() >= 4 ? Role::index : Role::generic;
 }
 

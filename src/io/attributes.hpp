@@ -12,16 +12,16 @@
 
 namespace facetmill::io {
 
-/// The role that glTF gives the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n), if
-/// components and type fit it. Otherwise integers of 16 bits and more are identifiers (Role::index) and
-/// other numbers are generic.
+/// The role that glTF defines for the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n), if
+/// components and type match. Otherwise integers of 16 bits and more are identifiers (Role::index) and other
+/// numbers are generic.
 [[nodiscard]] Role role_of(const std::string& name, int components, const AttributeData& data);
 
 /// Adds the attribute under a unique name: "quality_2" if the domain already has a "quality". Names that the
 /// mesh reserves ("primitive") are changed too.
 void add_attribute(Mesh& mesh, Attribute attribute);
 
-/// The elements of three components as vectors, in parallel.
+/// The elements, of three components each, as vectors. Parallel.
 [[nodiscard]] std::vector<Vec3> to_vectors(const Attribute& attribute);
 
 /// Gives the wedges after the first `vertices` the values of their vertices.
@@ -50,9 +50,9 @@ void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log);
 inline constexpr std::uint64_t no_key = UINT64_MAX;
 
 struct Wedges {
-    std::vector<Index> corners;      ///< [corners] -> wedge
-    std::vector<Index> wedge_vertex; ///< [wedges] -> vertex; empty without seams
-    std::vector<std::uint64_t> keys; ///< [wedges]; no_key for vertices that no corner uses
+    std::vector<Index> corners;      ///< [corners] wedges
+    std::vector<Index> wedge_vertex; ///< [wedges] vertices; empty without seams
+    std::vector<std::uint64_t> keys; ///< [wedges] keys; no_key for vertices that no corner uses
 };
 
 /// Wedge v is the first wedge of vertex v; further wedges follow in the order of their first corner.

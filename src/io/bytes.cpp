@@ -18,7 +18,8 @@ namespace facetmill::io {
 
 namespace {
 
-/// Below this a file is read rather than mapped, unless less is asked for: nobody can shrink memory under us.
+/// Smaller files are read, not mapped, unless the caller asks for a lower limit: another process cannot
+/// truncate memory.
 constexpr std::size_t map_from = std::size_t{16} << 20;
 
 [[noreturn]] void cannot_read(const std::string& name, int error) {
@@ -37,14 +38,14 @@ constexpr std::size_t map_from = std::size_t{16} << 20;
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));
 }
 
-/// How many bytes are taken from what does not say its size: an eighth of the memory that this process may
-/// still take.
+/// The maximum size of a stream of unknown length: an eighth of the memory that this process may still
+/// allocate.
 std::size_t stream_limit() {
     const auto there = available_memory();
     return there ? static_cast<std::size_t>(*there / 8) : SIZE_MAX;
 }
 
-/// A device never ends (/dev/zero), or is a terminal.
+/// The limit for devices, which may never end (/dev/zero) or be a terminal.
 constexpr std::size_t max_device_bytes = std::size_t{64} << 20;
 
 /// Reads up to room bytes; 0 at the end.
@@ -54,7 +55,7 @@ std::size_t read_piece(const Descriptor& file, std::span<std::byte> to, const st
     return *got;
 }
 
-/// Memory that is filled from a file, and so not with zeros before.
+/// Memory that is filled from a file, and is therefore not zeroed first.
 struct Piece {
     std::unique_ptr<std::byte[]> bytes;
     std::size_t size = 0;
@@ -62,7 +63,8 @@ struct Piece {
     explicit Piece(std::size_t room) : bytes(new std::byte[room]) {}
 };
 
-/// One after the other; each is freed as soon as it is copied, so that all are there hardly twice.
+/// Joins pieces in order. Each piece is freed as soon as it is copied, so that memory holds little data
+/// twice.
 Piece joined(std::vector<Piece> pieces, std::size_t size) {
     if (pieces.size() == 1) return std::move(pieces.front());
     Piece all(size);
@@ -74,8 +76,8 @@ Piece joined(std::vector<Piece> pieces, std::size_t size) {
     return all;
 }
 
-/// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink). Read in pieces:
-/// a buffer that grows would be there twice, which for what never ends is twice the limit.
+/// Reads the descriptor to its end. expected: an estimate, because files grow and shrink. It reads in
+/// pieces, because a growing buffer would exist twice and need twice the limit.
 Piece read_all(const Descriptor& file, std::size_t expected, std::size_t limit, const std::string& name) {
     constexpr std::size_t least = std::size_t{64} << 10, most = std::size_t{64} << 20;
     limit = std::min(limit, SIZE_MAX - 1);

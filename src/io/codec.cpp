@@ -36,7 +36,7 @@ std::vector<std::string> names_where(Condition&& condition) {
     return names;
 }
 
-/// The codec that the content identifies, else the codec of the extension.
+/// The codec that the content identifies, otherwise the codec of the extension.
 const Codec& choose(const Input& input, ReadLog& log) {
     const Codec* by_name = codec_for(input.name());
     if (const Codec* surely = sure_codec(input)) {
@@ -62,7 +62,8 @@ const Codec& choose(const Input& input, ReadLog& log) {
 /// The input for its codec: text becomes UTF-8, and files with a magic number stay unchanged.
 Input readable(const Input& input) { return sure_codec(input) ? input : in_utf8(input); }
 
-/// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
+/// Throws a malformed-input error (E-EMPTY) for a file without bytes, and a usage error (E-FORMAT) when no
+/// codec reads it.
 const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
     if (input.bytes().empty())
         throw Error(ErrorKind::malformed, "E-EMPTY",
@@ -105,7 +106,7 @@ void leave_out_not_finite(Part& part, const std::string& name, ReadLog& log) {
          file_mark(name), "clean: {holes: minimal} closes the holes that this leaves"});
 }
 
-/// With sizes above far_size or below its inverse, products of coordinates in stages may overflow or
+/// If sizes are above far_size or below its inverse, products of coordinates in stages may overflow or
 /// underflow.
 constexpr double far_size = 1e60;
 
@@ -246,7 +247,7 @@ void warn_of_override(const Input& input, const Codec& codec, const Scene& scene
 Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
     const Input input = readable(file).with_asset_roots(settings.asset_roots);
     const Codec& codec = reader_for(input, log, forced);
-    constexpr double memory_per_byte = 4; // as measured on large meshes: 3 to 5 in all formats
+    constexpr double memory_per_byte = 4; // measured on large meshes: 3 to 5 in all formats
     require_memory(memory_per_byte * static_cast<double>(input.bytes().size()),
                    fmt::format("reading '{}'", input.name()), "split it, or use a machine with more memory");
     ProgressSteps steps({8, 1});

@@ -1,6 +1,6 @@
 #pragma once
-// One codec per format, in one registry sorted by name. A codec turns bytes into a Scene and back. It opens
-// no files (except a glTF's neighbours, through Neighbours) and writes none.
+// Each format has a codec, in a registry sorted by name. A codec converts bytes to a Scene and back. It
+// opens no files (except a glTF's neighbours, through Neighbours) and writes none.
 
 #include "io/bytes.hpp"
 #include "mesh/lines.hpp"
@@ -20,7 +20,7 @@ struct ReadWarning : Diagnostic {
 struct ReadFile {
     std::filesystem::path path;
     std::size_t bytes = 0;
-    std::string sha256 = {}; ///< of the bytes as read; empty: only a part of the file was read
+    std::string sha256 = {}; ///< digest of the bytes as read; empty: only a part of the file was read
 };
 
 /// The results of a reader besides the scene: warnings with stable ids, and the other files that it read.
@@ -34,8 +34,8 @@ struct ReadLog {
     bool unrepeatable = false;
 };
 
-/// Whether vertices at exactly the same position are merged: by the format's convention (STL and glTF
-/// merge), never, or always.
+/// Whether vertices at exactly the same position are merged: by the format's convention (STL and glTF merge
+/// them), never, or always.
 enum class Weld { automatic, off, exact };
 
 /// Data decoded while writing, kept for the read-back. Only the codecs that made it use it.
@@ -48,7 +48,7 @@ struct ReadSettings {
     std::optional<Unit> unit; ///< overrides the file's unit
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
-    bool lines = false;            ///< lines go to the log instead of being parts
+    bool lines = false;            ///< lines go to the log instead of becoming parts
     bool expand_instances = false; ///< glTF: each instance of EXT_mesh_gpu_instancing is a part
     /// Drop vertices with coordinates that are not finite, with their faces and lines (W-NOT-FINITE),
     /// instead of refusing them (E-NAN).
@@ -61,8 +61,8 @@ struct ReadSettings {
 struct DracoSettings {
     bool on = false;
     int position_bits = 14, normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12;
-    int speed = 0;                ///< 0 smallest .. 10 fastest
-    bool keep_degenerate = false; ///< keep faces that repeat a vertex, in a primitive of their own
+    int speed = 0;                ///< 0 (smallest) to 10 (fastest)
+    bool keep_degenerate = false; ///< keep faces that repeat a vertex, in a separate primitive
     bool keep_decoded = false;    ///< fill Written::decoded for the read-back
 };
 
@@ -91,8 +91,8 @@ struct TileSettings {
 
 /// The order of triangles and vertices of glTF, without Draco.
 enum class TriangleOrder {
-    automatic, ///< for size under meshopt, else for drawing
-    keep,      ///< as the scene has it
+    automatic, ///< `size` with meshopt, otherwise `draw`
+    keep,      ///< unchanged
     draw,      ///< for the vertex cache and little overdraw
     size,      ///< the candidate, mostly strips, that meshopt compresses best
     strips     ///< a single order of strips: hardly larger under meshopt, and faster to find
@@ -107,27 +107,28 @@ struct VertexCacheUse {
 
 /// The destination of images that a document names as files.
 enum class Textures {
-    automatic, ///< into the file if it is self-contained (GLB), else next to it
+    automatic, ///< into the file if it is self-contained (GLB), otherwise next to it
     embed,     ///< into the written file
     copy,      ///< next to the written file, under names that begin with its stem
     reference  ///< not copied: the written file names the original paths
 };
 
-/// The grid that positions of a part are rounded to, in the part's coordinates: origin + step * whole
-/// numbers that are not negative in the part. Step 0: bounds and bits define the grid.
+/// The grid to which positions of a part are rounded, in the part's coordinates: origin + step *
+/// non-negative integers. Step 0: bounds and bits define the grid.
 struct Lattice {
     Vec3 origin;
     double step = 0;
 };
 
 struct WriteSettings {
-    bool ascii = false;            ///< PLY and STL: text instead of binary
-    bool big_endian = false;       ///< PLY
-    bool double_positions = false; ///< PLY, OBJ, OFF: positions with full precision, else rounded to float32
-    DracoSettings draco{};         ///< glTF
-    QuantizeSettings quantize{};   ///< glTF, without Draco
-    MeshoptSettings meshopt{};     ///< glTF, without Draco
-    TileSettings tiles{};          ///< 3D Tiles
+    bool ascii = false;      ///< PLY and STL: text instead of binary
+    bool big_endian = false; ///< PLY
+    bool double_positions =
+        false;             ///< PLY, OBJ, OFF: positions with full precision, otherwise rounded to float32
+    DracoSettings draco{}; ///< glTF
+    QuantizeSettings quantize{}; ///< glTF, without Draco
+    MeshoptSettings meshopt{};   ///< glTF, without Draco
+    TileSettings tiles{};        ///< 3D Tiles
     /// glTF: all positions are whole numbers below 2^24, which the grids of Draco and quantize keep exactly.
     bool whole_positions = false;
     TriangleOrder order = TriangleOrder::automatic; ///< glTF, without Draco
@@ -135,16 +136,15 @@ struct WriteSettings {
     bool lods = false;   ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
     std::string title{}; ///< the output's stem, for names inside the file
     Textures textures = Textures::automatic; ///< glTF, OBJ
-    std::filesystem::path directory{};       ///< the output's, for Textures::reference
+    std::filesystem::path directory{};       ///< the output's directory, for Textures::reference
 
-    std::vector<int> part_bits{}; ///< position bits of each part; empty: as Draco or quantize set
+    std::vector<int> part_bits{}; ///< position bits of each part; empty: the bits of Draco or quantize
 
     std::vector<Lattice> lattices{}; ///< position grid of each part, within its bits; empty: no grids
     bool interleave = false; ///< glTF, without Draco and meshopt: interleave the attributes of a vertex
     bool names = true;       ///< glTF: also write names that only people use
 
-    /// The bits of the grid that positions of a part are rounded to. Its longest side has 2^bits - 1 steps.
-    /// 0: no grid.
+    /// The bits of the grid for positions of a part. The longest side has 2^bits - 1 steps. 0: no grid.
     int grid_bits(std::size_t part) const {
         if (!draco.on && !quantize.on) return 0;
         if (part < part_bits.size()) return part_bits[part];
@@ -166,7 +166,7 @@ struct OutputFile {
 struct TilesWritten {
     std::size_t tiles = 0, leaves = 0, levels = 0;
     std::size_t largest = 0; ///< triangles of the largest tile
-    double error = 0;        ///< of the root, in metres
+    double error = 0;        ///< error of the root, in metres
 };
 
 struct Written {
@@ -174,7 +174,7 @@ struct Written {
     std::vector<Diagnostic> warnings;
     AttributeChanges changes;      ///< attributes that the format cannot hold are listed as dropped
     std::size_t dropped_faces = 0; ///< faces of the scene missing from the file, for the read-back
-    VertexCacheUse cache{};        ///< of the reordered meshes
+    VertexCacheUse cache{};        ///< cache use of the reordered meshes
     std::optional<TilesWritten> tiles{};
     std::shared_ptr<const Decodings> decoded{};
 };
@@ -184,10 +184,11 @@ struct Written {
 struct Capabilities {
     enum class Draco { never, on_request, always };
 
-    bool polygons = false;       ///< faces of any size; else triangles
-    bool shares_vertices = true; ///< faces share vertices; else a reader welds them
+    bool polygons = false;       ///< faces of any size, otherwise only triangles
+    bool shares_vertices = true; ///< faces share vertices, otherwise a reader must weld them
     bool normals = true;
-    bool transforms = false; ///< parts keep their transforms and names; else all are in world space
+    bool transforms =
+        false; ///< parts keep their transforms and names, otherwise all parts are in world space
     bool skins = false;
     bool points = false;         ///< scenes without faces: point clouds
     bool lines = false;          ///< parts of lines
@@ -202,7 +203,7 @@ struct Capabilities {
     bool order = false;          ///< WriteSettings::order
     bool tiles = false;          ///< WriteSettings::tiles
     Draco draco = Draco::never;  ///< WriteSettings::draco
-    std::string attributes{};    ///< the attributes that it holds, as text
+    std::string attributes{};    ///< the attributes that the format holds, as text
     std::string companion{};     ///< the suffix of a required neighbour: ".bin"
     std::string library{};       ///< the suffix of the neighbour with the materials: ".mtl"
     bool copies_images =
@@ -218,9 +219,9 @@ const std::vector<Capability>& capabilities();
 
 /// An image that a document names as a file.
 struct NamedImage {
-    std::filesystem::path relative; ///< to the file
-    std::string digest;             ///< equal for equal images
-    bool is_file = true;            ///< the file exists at that path; else the image was derived from others
+    std::filesystem::path relative; ///< path relative to the file
+    std::string digest;             ///< digest, equal for equal images
+    bool is_file = true; ///< the file exists at this path; otherwise the image was derived from others
 };
 
 /// The facts that the header of a mesh file gives.
@@ -231,29 +232,29 @@ struct FileHeader {
     std::vector<std::string> parts{}; ///< part names; empty if only reading the whole file finds them
     std::vector<std::filesystem::path> files{}; ///< neighbours that reading it opens, existing or not
     /// Materials and images of the scene that reading gives. Both need more than the header, so they are
-    /// called only if needed. Empty: none. Images are the readable ones, named as in a written document.
+    /// called only if needed. Empty: none. Only readable images are listed, named as in a written document.
     std::function<bool()> has_materials{};
     std::function<std::vector<NamedImage>()> images{};
 };
 
 struct Codec {
-    std::string name;                    ///< "ply"
+    std::string name;                    ///< for example "ply"
     std::string about;                   ///< one line, for `facetmill formats`
     std::vector<std::string> extensions; ///< lower case, without the dot; the first is the usual one
     Unit unit = Unit::unknown;           ///< the unit of a written file; unknown: the scene's unit
     UpAxis up = UpAxis::unknown;
     Capabilities can{};
-    /// Whether the bytes are of this format, whatever the name is: 0 no, 1 perhaps, 2 surely (a magic
+    /// Whether the bytes have this format, regardless of the name: 0 no, 1 perhaps, 2 certainly (a magic
     /// number).
     std::function<int(Span)> sniff;
-    /// Throws malformed with the place (line, or byte offset in the message), also if counts exceed the size
-    /// of the file. Throws limit if counts exceed the capacity of a mesh. Sizes and counts from the file are
-    /// checked before use.
+    /// Throws a malformed-input error with the position (line, or byte offset in the message), also if
+    /// counts exceed the size of the file. Throws a limit error if counts exceed the capacity of a mesh.
+    /// Sizes and counts from the file are checked before use.
     std::function<Scene(const Input&, const ReadSettings&, ReadLog&)> read;
-    /// Throws stage if the format cannot hold the scene at all. Empty: the format is read-only.
+    /// Throws a stage error if the format cannot hold the scene at all. Empty: the format is read-only.
     std::function<Written(const Scene&, const WriteSettings&)> write = {};
-    /// Reads only the header. Throws as read if the header is malformed. Sets the neighbours, the materials,
-    /// and the part names if the header gives them. Empty: the format has no header.
+    /// Reads only the header. Throws the errors of read if the header is malformed. Sets the neighbours, the
+    /// materials, and the part names if the header gives them. Empty: the format has no header.
     std::function<void(const Input&, FileHeader&)> peek = {};
 };
 
@@ -268,17 +269,18 @@ const std::vector<Codec>& codecs();
 /// The codec whose magic number the input begins with, or null. If several match, the file name decides.
 [[nodiscard]] const Codec* sure_codec(const Input& input);
 [[nodiscard]] const Codec* codec_named(std::string_view name);
-/// The names of all codecs that read, or that write, sorted.
+/// The sorted names of all codecs that read, or that write.
 [[nodiscard]] std::vector<std::string> names_of_readers();
 [[nodiscard]] std::vector<std::string> names_of_writers();
 
 /// Reads a mesh file. A magic number decides the format, otherwise the extension does. Text may be UTF-8 or
-/// UTF-16. Throws as Codec::read, and usage (E-FORMAT) if no codec reads it. Positions that are not finite
-/// are malformed (E-NAN, with vertex and file) unless ReadSettings::drop_not_finite is set.
+/// UTF-16. Throws the errors of Codec::read, and a usage error (E-FORMAT) if no codec reads it. Positions
+/// that are not finite are malformed (E-NAN, with vertex and file) unless ReadSettings::drop_not_finite is
+/// set.
 [[nodiscard]] Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log,
                                const Codec* forced = nullptr);
 
-/// Detects the format of a file and reads its header. Throws as read_scene for errors in the header.
+/// Detects the format of a file and reads its header. Throws the errors of read_scene for the header.
 [[nodiscard]] FileHeader file_header(const Input& file, const ReadSettings& settings,
                                      const Codec* forced = nullptr);
 

@@ -19,7 +19,7 @@ Transform scaling(double factor) {
 Transform turn_up(UpAxis from, UpAxis to) {
     Transform t;
     if (from == to) return t;
-    const double s = to == UpAxis::y ? 1 : -1; // z up to y up: (x, y, z) -> (x, z, -y)
+    const double s = to == UpAxis::y ? 1 : -1; // from z up to y up: (x, y, z) -> (x, z, -y)
     t.m[1][1] = t.m[2][2] = 0;
     t.m[1][2] = s;
     t.m[2][1] = -s;

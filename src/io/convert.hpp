@@ -16,7 +16,7 @@ struct Conversion {
     bool turned = false;       ///< the up axis changed
     bool unit_guessed = false; ///< the target has a unit but the scene has none: numbers are unchanged
     bool up_guessed = false;
-    Transform transform; ///< old world -> new world
+    Transform transform; ///< from the old world to the new world
 };
 
 /// A quarter turn about x that turns the axis `from` to `to`; identity if they are the same.

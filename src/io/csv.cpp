@@ -96,7 +96,7 @@ class Table {
     }
 
   private:
-    /// Without the text after #.
+    /// The next line, without the text after #.
     std::string_view next_line() {
         ++number_;
         const auto end = text_.find_first_of("\r\n");
@@ -151,7 +151,7 @@ class Table {
     std::string_view text_;
     int number_ = 0;
     char delimiter_ = ',';
-    std::vector<std::size_t> places_; ///< of the named columns; empty: the first ones
+    std::vector<std::size_t> places_; ///< indices of the named columns; empty: the first columns
     std::vector<double> numbers_;
 };
 

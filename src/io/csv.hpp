@@ -13,7 +13,7 @@ namespace facetmill::io {
 /// Reads rows of `columns` numbers, one row a line, separated by commas, semicolons, tabs or blanks. Ignores
 /// further columns, empty lines, text after #, and a first line that does not start with a number (a
 /// heading). If the heading has all of `names`, in any case, it selects the columns; otherwise the first
-/// columns are read. Returns the numbers row by row. Throws malformed (E-CSV) with the line.
+/// columns are read. Returns the numbers row by row. Throws a malformed-input error (E-CSV) with the line.
 [[nodiscard]] std::vector<double> read_table(const Input& input, std::size_t columns,
                                              std::span<const std::string_view> names = {});
 

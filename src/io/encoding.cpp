@@ -21,7 +21,7 @@ enum class Encoding { utf8, marked_utf8, utf16_little, utf16_big, utf32 };
 
 bool is_plain(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\n' || c == '\r'; }
 
-/// Whether the text starts with ASCII characters, each after (or before) a zero byte.
+/// Whether the text starts with ASCII characters that alternate with zero bytes.
 bool alternates(std::string_view text, std::size_t character) {
     constexpr std::size_t pairs = 8;
     if (text.size() < 2 * pairs) return false;
@@ -72,7 +72,7 @@ Bytes from_utf16(const Input& input, bool big) {
     while (at < bytes.size()) {
         std::uint32_t code = unit(at);
         at += 2;
-        if (code >= 0xd800 && code < 0xe000) { // half of a pair (RFC 2781)
+        if (code >= 0xd800 && code < 0xe000) { // half of a surrogate pair (RFC 2781)
             const std::uint32_t low = at < bytes.size() ? unit(at) : 0;
             if (code >= 0xdc00 || low < 0xdc00 || low >= 0xe000)
                 cannot_decode(input,

@@ -16,7 +16,7 @@ namespace facetmill::io {
 
 void require_floats(const Mesh& mesh, const std::string& what) {
     constexpr double least = 1.1754943508222875e-38,
-                     most = 3.4028234663852886e38; // normal numbers of float32
+                     most = 3.4028234663852886e38; // the range of normal float32 numbers
     const Box box = mesh.bounds();
     double farthest = 0;
     for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
@@ -145,7 +145,7 @@ void for_each_described(const Scene& scene,
     }
 }
 
-/// The number at that JSON pointer.
+/// The number at this JSON pointer.
 double number_at(const Json& said, const char* place, double otherwise) {
     const Json::json_pointer at(place);
     return said.contains(at) && said[at].is_number() ? said[at].get<double>() : otherwise;

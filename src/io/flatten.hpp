@@ -13,7 +13,7 @@ namespace facetmill::io {
 class WorldMesh {
   public:
     explicit WorldMesh(const Part& part);
-    /// All parts joined in order, for formats that hold one mesh; primitives refer to the scene's materials.
+    /// All parts joined in order, for formats with a single mesh. Primitives refer to the scene's materials.
     explicit WorldMesh(const Scene& scene);
     const Mesh& operator*() const { return given_ ? *given_ : own_; }
     const Mesh* operator->() const { return &**this; }
@@ -23,8 +23,8 @@ class WorldMesh {
     Mesh own_;
 };
 
-/// Throws stage (E-RANGE) if a position is beyond the range of float32, or if all positions are so small
-/// that none would remain. what: "part 'cube'", "the scene".
+/// Throws a stage error (E-RANGE) if a position is beyond the range of float32, or if all positions are so
+/// small that none would remain. what: for example "part 'cube'" or "the scene".
 void require_floats(const Mesh& mesh, const std::string& what);
 
 /// Records an attribute that the format cannot hold.
@@ -49,7 +49,8 @@ void warn_of_colours(Written& written, const Scene& scene, const char* format);
 /// Warns (W-MATERIAL) of materials on points, and on lines if `lines`, for a format that cannot hold these.
 void warn_of_point_materials(Written& written, const Scene& scene, const char* format, bool lines = true);
 
-/// Warns (W-PARTS) that several parts are merged into one mesh without names, for a format of one mesh.
+/// Warns (W-PARTS) that several parts are merged into a single mesh without names, for a format of a single
+/// mesh.
 void warn_of_parts(Written& written, const Scene& scene, const char* format);
 
 /// Warns (W-NAME) of control characters in names of parts and materials, for a format that replaces them.
@@ -72,7 +73,7 @@ void warn_of_attributes(Written& written, const std::vector<std::string>& names,
 template <class Write>
 void append_text(Bytes& bytes, std::size_t n, Write&& write);
 
-/// The shortest text that reads back as the same number, appended.
+/// Appends the shortest text that reads back as the same number.
 void put_number(std::string& out, double value);
 void put_number(std::string& out, float value);
 void put_number(std::string& out, std::int64_t value);

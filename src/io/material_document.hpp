@@ -15,8 +15,8 @@ class MaterialDocument {
     explicit MaterialDocument(std::string name);
 
     /// The index of a texture of the image, which is named by its path relative to the file. clamp: do not
-    /// repeat the image outside [0, 1]. A different image of the same name gets a number. is_file: the bytes
-    /// come from the file of that name.
+    /// repeat the image outside [0, 1]. A different image with the same name gets a number. is_file: the
+    /// bytes come from the file with this name.
     std::size_t texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes, bool clamp,
                         bool is_file = true);
     /// Adds a glTF material and lists the extensions that it uses. Returns the material for a scene that has

@@ -12,7 +12,7 @@ namespace facetmill::io {
 inline constexpr const char* drop_not_finite_hint =
     "load: {not_finite: drop} leaves out such vertices and the faces at them";
 
-/// The next coordinate of the text: finite only, or any number if the caller checks it later.
+/// The next coordinate of the text. It must be finite, unless the caller checks it later (any).
 [[nodiscard]] inline double coordinate(Text& text, const char* what, bool any) {
     return any ? text.real(what) : text.coordinate(what);
 }

@@ -15,7 +15,7 @@ struct OtherFormat {
     std::vector<std::string_view> suffixes;
     std::string_view what;
     std::string_view to_read;  ///< how to convert it to a readable format
-    std::string_view to_write; ///< empty: no conversion to it is known
+    std::string_view to_write; ///< empty: no conversion to this format is known
 };
 
 /// Built on first use, not at every start.

@@ -10,12 +10,12 @@ enum class Packing { none, gzip, zstd, deflate };
 
 /// The compression of the bytes, by their magic number.
 [[nodiscard]] Packing packing_of(Span bytes);
-/// The compression that a file name asks for: .gz, .zst.
+/// The compression for a file name that ends in .gz or .zst.
 [[nodiscard]] Packing packing_named(const std::filesystem::path& path);
 /// The path without .gz or .zst.
 [[nodiscard]] std::filesystem::path without_packing(const std::filesystem::path& path);
 /// The start of the names of an output's neighbours (.bin, .mtl, images). It is the output's stem, with _
-/// for backslashes, because readers take a backslash for a slash.
+/// for backslashes, because readers treat a backslash as a slash.
 [[nodiscard]] std::string stem_of_neighbours(const std::filesystem::path& output);
 
 /// The maximum unpacked size of a compressed file: 64 MiB or 200 times its size, whichever is larger. Text
@@ -23,13 +23,14 @@ enum class Packing { none, gzip, zstd, deflate };
 [[nodiscard]] std::size_t most_unpacked(std::size_t compressed);
 
 /// Unpacks a compressed file of one or more members. Memory grows with the output, up to the limit and
-/// most_unpacked(). Throws limit (E-SIZE) beyond these, malformed (E-GZIP, E-ZSTD) with the offset.
+/// most_unpacked(). Throws a limit error (E-SIZE) beyond these, and a malformed-input error (E-GZIP, E-ZSTD)
+/// with the offset.
 [[nodiscard]] Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string& name);
 
 /// The bytes as a compressed file without name and time, so that equal bytes give equal files.
 [[nodiscard]] Bytes packed(Span bytes, Packing packing);
 
-/// Throws limit (E-SIZE): the file, or its content, is larger than the limit.
+/// Throws a limit error (E-SIZE): the file, or its content, is larger than the limit.
 [[noreturn]] void too_large(const std::string& name, std::size_t limit);
 
 } // namespace facetmill::io

@@ -43,7 +43,7 @@ std::size_t count_positions(Points& points) {
 
 void add(VertexChanges& sum, Points before, Points after) {
     const std::size_t were = before.size(), are = after.size();
-    constexpr std::size_t many = 10000; // are sorted both at once
+    constexpr std::size_t many = 10000; // larger sets are both sorted at once
     std::size_t places = 0, left = 0;
     parallel_for(
         2, [&](std::size_t i) { i == 0 ? places = count_positions(before) : left = count_positions(after); },
@@ -83,7 +83,7 @@ namespace {
 struct Flat {
     std::span<const Vec3> points;
     std::span<const Index> corners;
-    std::vector<Vec3> ends; ///< of lines, in order
+    std::vector<Vec3> ends; ///< ends of lines, in order
 
     /// degenerate: include faces of fewer than three distinct vertices.
     explicit Flat(const Scene& scene, bool degenerate = true) {
@@ -164,7 +164,7 @@ struct Flat {
     std::vector<Index> made_corners_;
 };
 
-/// The largest distance; if it exceeds the tolerance, any distance above the tolerance.
+/// Returns the largest distance, or any distance above the tolerance if the largest exceeds it.
 template <class Distance>
 double largest(std::size_t count, double tolerance, Distance&& distance) {
     return parallel_reduce(
@@ -177,8 +177,8 @@ double largest(std::size_t count, double tolerance, Distance&& distance) {
         [](double a, double b) { return std::max(a, b); });
 }
 
-/// A hash grid: points sorted by the hash keys of their cells, with a table of the start of each share of
-/// the keys. A lookup is direct but may visit points of other cells. Blocks of 8 x 8 x 8 cells have similar
+/// A hash grid: points are sorted by the hash keys of their cells. A table has the start of each range of
+/// keys. A lookup is direct but may visit points of other cells. Blocks of 8 x 8 x 8 cells have similar
 /// keys, so that nearby points are mostly adjacent in memory.
 class Grid {
   public:
@@ -202,13 +202,13 @@ class Grid {
     /// The points, in grid order.
     const std::vector<Vec3>& points() const { return points_; }
 
-    /// The distance to the nearest point if it is below half a cell, else a larger value or infinity. The
-    /// search stops at any point no farther than `enough`.
+    /// The distance to the nearest point if this is below half a cell, otherwise a larger value or infinity.
+    /// The search stops at any point no farther than `enough`.
     double nearest(const Vec3& p, double enough) const {
         const Cell centre = cell_of(p);
         double best = nearest_in(centre, p, HUGE_VAL, enough);
         if (best <= enough) return best;
-        std::array<double, 3> side{}; // to the nearer neighbouring cell, squared
+        std::array<double, 3> side{}; // squared distance to the nearer neighbouring cell
         Cell beside = centre;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double within = p[axis] / cell_ - static_cast<double>(centre[axis]);
@@ -218,7 +218,7 @@ class Grid {
         }
         for (int i = 1; i < 8 && best > enough; ++i) {
             Cell c = centre;
-            double gap = 0; // to the cell, squared
+            double gap = 0; // squared distance to the cell
             for (std::size_t axis = 0; axis < 3; ++axis)
                 if (i >> axis & 1) {
                     c[axis] = beside[axis];
@@ -245,7 +245,7 @@ class Grid {
             c[axis] = static_cast<std::int64_t>(std::floor(p[axis] / cell_));
         return c;
     }
-    /// A key of bits_ bits: the block's hash, then the cell's index in the block.
+    /// A key of bits_ bits: the hash of the block, then the index of the cell in the block.
     std::size_t share(const Cell& c) const {
         constexpr int side_bits = 3, place_bits = 3 * side_bits;
         std::uint64_t hash = 0, place = 0;
@@ -271,7 +271,7 @@ double cell_of_few(const std::vector<Vec3>& points) {
 }
 
 /// Raises `most` to the largest distance from the points to their nearest neighbours in the grid. Returns
-/// the points without a neighbour in reach; none for the last grid.
+/// the points without a neighbour in reach; the last grid leaves none.
 std::vector<Vec3> farther(std::span<const Vec3> points, const Grid& grid, bool is_last, double& most) {
     std::vector<std::uint8_t> is_open(points.size());
     most = parallel_reduce(
@@ -319,7 +319,7 @@ struct Tolerances {
     double most = 0, in_order = 0;
 };
 
-/// The same for the ends of lines.
+/// Like position_error, for the ends of lines.
 double error_of_lines(const Flat& wanted, const Flat& found, const Tolerances& tolerances) {
     if (wanted.ends.size() == found.ends.size()) {
         const double in_order = largest(wanted.ends.size(), tolerances.in_order, [&](std::size_t i) {
@@ -357,7 +357,7 @@ Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings
             world.add(to_world.point(p));
         }
         if (own.empty()) continue;
-        double scale = 0; // an upper bound of the longest column for a unit of the part
+        double scale = 0; // an upper bound of the world length of the part's unit
         for (const auto& row : to_world.m)
             for (int c = 0; c < 3; ++c) scale += row[c] * row[c];
         const double reach = std::max(length(own.min), length(own.max)) * std::sqrt(scale);
@@ -387,7 +387,7 @@ Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings
     return {back.tolerance, std::min(in_order, back.tolerance)};
 }
 
-/// A property that a file should keep: a truth, or a count of defects.
+/// Whether a file should keep the property: a truth, or a count of defects.
 bool should_stay(const Property& property) { return property.soundness != Soundness::none; }
 
 /// Whether every truth holds and no defects are counted, so that no loss is possible.
@@ -423,7 +423,7 @@ std::optional<Scene> with_filled_faces(const Scene& scene) {
 } // namespace
 
 bool ReadBack::too_far_for_floats() const {
-    constexpr double tolerable = 1e-6; // of the diagonal
+    constexpr double tolerable = 1e-6; // times the diagonal
     // An error within the grid step comes from the grid, because a grid in the node's transform avoids
     // float32.
     return position_error > tolerable * diagonal && position_error > grid_step && float_step > grid_step;

@@ -30,7 +30,7 @@ std::string stated_comments(const Scene& scene, std::string_view before, std::st
 
 namespace {
 
-/// Spelled-out unit names: "Millimeters".
+/// Converts spelled-out unit names, such as "Millimeters".
 std::optional<Unit> unit_spelled(std::string_view text) {
     const std::string word = lower_case(std::string(text));
     if (const auto known = unit_named(word)) return known;
@@ -97,7 +97,7 @@ void take_stated(Scene& scene, const Stated& stated, const std::string& file, co
                  ReadLog& log) {
     take(scene, stated);
     const auto warn = [&](const char* id, std::string_view what, const std::string& value, std::string hint) {
-        constexpr std::size_t most = 40; // of a comment in a message
+        constexpr std::size_t most = 40; // characters of a comment shown in a message
         log.warnings.push_back({Severity::warning, id,
                                 fmt::format("'{}' states the {} '{}', which is none: it does not count", file,
                                             what, one_line(value.substr(0, most))),

@@ -16,12 +16,12 @@ struct Stated : Convention {
     std::string no_unit, no_up;
 };
 
-/// A comment for the scene's unit and a comment for its up axis, if known, each after `before`. With the
-/// default end and `before` "# ": "# unit: m\n# up: y\n".
+/// Comments that state the scene's unit and up axis, if known, each after `before`. With the default end and
+/// `before` "# ": "# unit: m\n# up: y\n".
 [[nodiscard]] std::string stated_comments(const Scene& scene, std::string_view before,
                                           std::string_view after = "\n");
 
-/// Takes the unit or axis that a comment states. The last statement wins; other comments are ignored.
+/// Takes the unit or axis that a comment states. The last statement is used; other comments are ignored.
 void take_comment(std::string_view comment, Stated& stated);
 
 /// The statements of the comments (#) at the start of a text, up to its first other line. If that line ends
@@ -34,7 +34,8 @@ void take_stated(Scene& scene, const Stated& stated, const std::string& file, co
                  ReadLog& log);
 void take_stated(FileHeader& header, const Convention& stated);
 
-/// W-OVERRIDDEN for the unit and for the axis, if the load settings differ from the file's statement.
+/// Warnings W-OVERRIDDEN for the unit and for the axis, if the load settings differ from the file's
+/// statement.
 [[nodiscard]] std::vector<ReadWarning> overridden(const std::string& file, const Convention& stated,
                                                   const ReadSettings& settings);
 

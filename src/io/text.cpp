@@ -12,7 +12,7 @@ namespace facetmill::io {
 
 void malformed(const std::string& name, std::int64_t line, const char* id, std::string message,
                std::string hint) {
-    if (line > INT_MAX) { // more than a mark can hold
+    if (line > INT_MAX) { // more lines than a mark can hold
         message += fmt::format(", in line {}", line);
         line = 0;
     }
@@ -34,7 +34,7 @@ constexpr std::uint64_t integer_powers_of_ten[] = {1,      10,      100,      10
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The cases that the fast path does not handle: many digits, large exponents, nan, inf, and "3.1+e2".
+/// Handles the cases that the fast path does not: many digits, large exponents, nan, inf, and "3.1+e2".
 bool scan_real_slowly(const char*& at, const char* end, double& value) {
     const char* p = at;
     if (p < end && *p == '+') ++p;

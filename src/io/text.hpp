@@ -12,15 +12,15 @@
 
 namespace facetmill::io {
 
-/// Throws malformed with the file and line (0: the file as a whole).
+/// Throws a malformed-input error with the file and line (0: the file as a whole).
 [[noreturn]] void malformed(const std::string& name, std::int64_t line, const char* id, std::string message,
                             std::string hint = {});
-/// Throws limit with the file.
+/// Throws a limit error with the file.
 [[noreturn]] void beyond_limit(const std::string& name, std::string message);
 
-/// Reads a number at `at` and moves past it; false, without moving, if there is no number. Decimal with
-/// optional sign, point and exponent, correctly rounded; nan and inf too. Does not check the following
-/// character.
+/// Reads a number at `at` and moves past it; false, without moving, if there is no number. Numbers are
+/// decimal with optional sign, point and exponent, and are correctly rounded. nan and inf are accepted. Does
+/// not check the following character.
 bool scan_real(const char*& at, const char* end, double& value);
 /// Reads up to eight digits at `at`, moves past them, and returns their count.
 [[nodiscard]] inline int take_digits(const char*& at, const char* end, std::uint64_t& value) {
@@ -47,7 +47,7 @@ bool scan_real(const char*& at, const char* end, double& value);
     at += many;
     return many;
 }
-/// Any integer, with a sign or without.
+/// Reads an integer, with or without a sign.
 bool scan_signed_integer(const char*& at, const char* end, std::int64_t& value);
 inline bool scan_integer(const char*& at, const char* end, std::int64_t& value) {
     const char* p = at;
@@ -62,8 +62,8 @@ inline bool scan_integer(const char*& at, const char* end, std::int64_t& value) 
 /// A text file, read word by word. Lines end in LF, CR LF or CR.
 class Text {
   public:
-    /// id: error id, "E-PLY". comment: the character that starts a comment, or 0. line: the number of the
-    /// first line.
+    /// id: the error id, for example "E-PLY". comment: the character that starts a comment, or 0. line: the
+    /// number of the first line.
     Text(std::string_view text, const std::string& name, const char* id, char comment = 0,
          std::int64_t line = 1)
         : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(&name), id_(id),
@@ -131,8 +131,7 @@ class Text {
   private:
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-    /// False for every character that cannot be in a word, and for some that can, so false needs a closer
-    /// look.
+    /// True only for characters of words. Also false for some of these, so false needs a closer look.
     bool is_in_word(char c) const { return c > ' ' && c != '\\' && c != comment_; }
     void skip_blanks() {
         if (at_ < end_ && *at_ == ' ') ++at_;
@@ -157,7 +156,7 @@ class Text {
     std::int64_t line_;
 };
 
-/// A word for a message: in quotes, cut when long, control characters as dots.
+/// A word for a message: in quotes, shortened if long, with control characters as dots.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 
 } // namespace facetmill::io

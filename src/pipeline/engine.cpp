@@ -156,7 +156,7 @@ bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
     }
     Problems problems;
     const auto arms = step.arms_of_parts(names, problems);
-    check_new_files(run.plan, arms, problems);
+    check_new_files(run.plan, step, arms, problems);
     for (const auto& d : problems.all())
         if (d.severity == Severity::error) run.failures.add(ErrorKind::usage, {d});
     if (problems.any_errors()) return false;

@@ -81,17 +81,26 @@ OrderedSet<fs::path> paths_of(const Plan& plan, bool written, const std::vector<
 
 } // namespace
 
+namespace {
+
+std::vector<PlannedFile> files_of_arms(const std::vector<Arm>& arms, const Folders& places) {
+    std::vector<PlannedFile> files;
+    for (const auto& arm : arms)
+        for (auto& file : planned_files(*arm.steps, places)) {
+            file.variables.insert(file.variables.begin(), arm.variables.begin(), arm.variables.end());
+            files.push_back(std::move(file));
+        }
+    return files;
+}
+
+} // namespace
+
 std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places) {
     std::vector<PlannedFile> files;
     for (const auto& step : steps) {
         if (step.when && step.when->known == false) continue;
         add_files(step, places, files);
-        for (const auto& arm : step.arms) {
-            for (auto& file : planned_files(*arm.steps, places)) {
-                file.variables.insert(file.variables.begin(), arm.variables.begin(), arm.variables.end());
-                files.push_back(std::move(file));
-            }
-        }
+        for (auto& file : files_of_arms(step.arms, places)) files.push_back(std::move(file));
     }
     return files;
 }
@@ -209,16 +218,21 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     return good;
 }
 
-void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& problems) {
+void check_new_files(const Plan& plan, const Step& step, const std::vector<Arm>& arms, Problems& problems) {
     auto files = planned_files(plan.steps, plan.places);
     files.insert(files.end(), plan.others.begin(), plan.others.end());
-    for (const auto& arm : arms) {
-        auto inner = planned_files(*arm.steps, plan.places);
-        for (auto& file : inner) {
-            const bool is_known = std::any_of(
-                files.begin(), files.end(), [&](const auto& f) { return !f.written && f.path == file.path; });
-            if (file.written || !is_known) files.push_back(std::move(file));
-        }
+    // The plan has an arm for parts of unknown names, which the new arms replace.
+    for (const auto& planned : files_of_arms(step.arms, plan.places)) {
+        const auto same = [&](const PlannedFile& file) {
+            return file.written && file.path == planned.path && is_at_one_place(file, planned);
+        };
+        if (const auto old = std::find_if(files.begin(), files.end(), same); old != files.end())
+            files.erase(old);
+    }
+    for (auto& file : files_of_arms(arms, plan.places)) {
+        const bool is_known = std::any_of(files.begin(), files.end(),
+                                          [&](const auto& f) { return !f.written && f.path == file.path; });
+        if (file.written || !is_known) files.push_back(std::move(file));
     }
     check_collisions(files, problems);
 }

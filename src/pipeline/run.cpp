@@ -195,6 +195,29 @@ class Runner {
 
 } // namespace
 
+namespace {
+
+/// True for the value of an option such as -D or --report.
+bool is_of_option(const Mark& mark) { return mark.known() && mark.source->name.starts_with('-'); }
+
+/// The reports of a refused run: only those of --report, if the command line alone is wrong.
+std::vector<std::string> reports_of_refusal(const Plan& plan, const Problems& problems) {
+    std::vector<std::string> reports = plan.reports;
+    const auto& all = problems.all();
+    if (std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
+            return d.severity == Severity::error && !is_of_option(d.where);
+        }))
+        return reports;
+    std::erase_if(reports, [&](const std::string& report) {
+        return std::none_of(plan.others.begin(), plan.others.end(), [&](const PlannedFile& file) {
+            return file.written && is_of_option(file.where) && file.path == plan.places.output(report);
+        });
+    });
+    return reports;
+}
+
+} // namespace
+
 std::vector<std::string> report_refusal(const Plan& plan, const Problems& problems) {
     report::RunRecord record = record_of(plan);
     record.exit_code = static_cast<int>(ErrorKind::usage);
@@ -203,8 +226,9 @@ std::vector<std::string> report_refusal(const Plan& plan, const Problems& proble
             record.errors.push_back({d});
         else
             record.warnings.push_back(d);
-    for (const auto& path : plan.reports) write_report(plan, path, record);
-    return plan.reports;
+    auto reports = reports_of_refusal(plan, problems);
+    for (const auto& path : reports) write_report(plan, path, record);
+    return reports;
 }
 
 report::RunRecord run_plan(const Plan& plan, const RunSettings& settings) {

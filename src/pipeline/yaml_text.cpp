@@ -61,7 +61,10 @@ bool check_text(const SourceIndex& source, Problems& problems) {
         const std::size_t length = utf8_length(text, i);
         if (length == 0 || is_forbidden_control(text[i])) {
             const auto byte = static_cast<unsigned>(static_cast<unsigned char>(text[i]));
-            problems.add(source.mark(i), "E-YAML",
+            Mark where = source.mark(i);
+            if (text.find('\0') != text.npos) // a binary file: its text is not shown
+                where.source = std::make_shared<const SourceText>(SourceText{source.name(), {}});
+            problems.add(where, "E-YAML",
                          length == 0
                              ? fmt::format("the byte 0x{:02x} is not UTF-8", byte)
                              : fmt::format("the control character 0x{:02x} may not be in a pipeline", byte),

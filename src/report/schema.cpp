@@ -66,6 +66,7 @@ Json schema() {
 Json info_schema() {
     Json out = {{"$schema", schema_dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
+    scene["properties"]["file"] = typed("string", "The file, as given");
     scene["properties"]["components_detail"] =
         list_of(component_fields().schema(), "The components with most faces, the largest first");
     scene["properties"]["components_omitted"] =

@@ -75,11 +75,12 @@ class Cells(LargeCase):
     def test_what_needs_the_whole_mesh_is_refused_with_the_way_out(self):
         self.large()
         cases = (("relax 3 ! simplify 10%", "'relax' cannot work on a mesh in cells", "put it after simplify or clip"),
-                 ("simplify 10% --max_error 1%", "max_error is measured on the whole mesh", "leave that option out"),
+                 ("simplify 10% --max_error 1%", "max_error needs the whole mesh in memory", "leave that option out"),
                  ("simplify 10% --only x", "'simplify' has the key 'only'", "leave it out"),
-                 ("simplify --vertices 100", "the target must be faces or a ratio", "leave that option out"),
-                 ("measure --attributes area", "measure: attributes: cells do not get any", "leave that option out"),
-                 ("measure --path o.csv", "the faces in the order of the file", "leave that option out"),
+                 ("simplify --vertices 100", "on cells the target must be faces or ratio", "leave that option out"),
+                 ("measure --attributes area", "measure: attributes need the whole mesh in memory",
+                  "leave that option out"),
+                 ("measure --path o.csv", "cells do not keep the order of faces", "leave that option out"),
                  ("split bisect", "split: the method bisect needs the whole mesh", "leave that option out"),
                  ("split --max_edge 1%", "the target max_edge is decided for the whole mesh", "leave that option out"),
                  ("crumple --grid 17", "crumple: grid: above 16", "split midpoint before it makes faces small"),
@@ -204,7 +205,7 @@ class Cells(LargeCase):
                             "0 0 0 9 9 9 1\n1 0 0 9 9 9 1\n0 1 0 9 9 9 1\n3 0 1 2\n")
         told = [self.mill("pipe", "--partition", "always", "load", "c.ply", "--unit", "m", "--up", "z", "!", "write",
                           name).stderr for name in ("c.glb", "d.ply")]
-        self.assertIn("warning[W-CELLS]: c.ply: 'c.glb': a GLB that is written from cells has positions only, "
+        self.assertIn("warning[W-CELLS]: c.ply: 'c.glb': a GLB written from cells contains only positions, "
                       "without COLOR_0, quality", told[0])
         self.assertNotIn("W-CELLS", told[1])
 

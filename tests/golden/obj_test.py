@@ -95,13 +95,13 @@ class Obj(Case):
 
     def test_what_an_obj_cannot_hold_is_an_error(self):
         said = self.mill("pipe", "load", "in/t.obj", "!", "write", "t.obj", "--textures", "embed", expect=2).stderr
-        self.assertIn("obj cannot hold images", said)
-        self.assertIn("write --textures copy, or a .glb", said)
+        self.assertIn("obj cannot contain images", said)
+        self.assertIn("use write --textures copy, or write a .glb", said)
         self.mill("pipe", "load", "in/t.obj", "!", "write", "o/t.obj", "--textures", "reference")
         self.assertIn("map_Kd ../in/maps/tex.png\n", (self.dir / "o/t.mtl").read_text())
         self.assertEqual(sorted(self.files(self.dir / "o")), ["t.mtl", "t.obj"])
         said = self.mill("pipe", "load", "in/t.obj", "!", "write", "t.obj", "--tangents", "new", expect=2).stderr
-        self.assertIn("'tangents' goes with", said)
+        self.assertIn("'tangents' works with", said)
 
 
 if __name__ == "__main__":

@@ -434,7 +434,7 @@ class Pages(Case):
         index = (self.dir / "out/i.html").read_text()
         self.assertIn('<a href="i/sub/moved.off.html">', index)
         self.assertLess(index.index("sub/moved.off"), index.index("little.off"))
-        self.assertIn("[sub/moved.off](i/sub/moved.off.html)", (self.dir / "out/i.md").read_text())
+        self.assertIn("| sub/moved.off |", (self.dir / "out/i.md").read_text())
         first = self.files(self.dir / "out")
         self.mill("diff", "a", "b", "--report", "out/i.html", "--report", "out/i.md", "-j", "1", expect=1)
         self.assertEqual(first, self.files(self.dir / "out"))

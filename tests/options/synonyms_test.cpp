@@ -13,7 +13,7 @@ TEST_CASE("options are found by what other programs call them, where the option 
           "'Manifold' is called 'edge_manifold' or 'vertex_manifold' here");
     CHECK(hint_for_option("target-faces", simplify) == "'target-faces' is called 'faces' here");
     CHECK(hint_for_option("reduction", simplify) ==
-          "here it is ratio, the share that stays and not the one that goes");
+          "here it is ratio, the share that remains, not the share that is removed");
     CHECK(hint_for_option("preserve_border", simplify) == "here it is lock: {boundary: true}");
     CHECK(hint_for_option("inside_out", validate) ==
           "here it is (outward_oriented: true), which says the opposite");

@@ -111,11 +111,10 @@ TEST_CASE("clean refuses options that make no sense together", "[stages]") {
     };
     CHECK(refusal("{weld: near}") ==
           "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | tolerance: 0.01% (or 0.1mm)");
-    CHECK(
-        refusal("{tolerance: 1}") ==
-        "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to near "
-        "| weld: near, stitch: near or t_junctions: near");
+    CHECK(refusal("{tolerance: 1}") ==
+          "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to "
+          "near | set weld, stitch or t_junctions to near");
     CHECK(refusal("{components: {}}") ==
-          "usage [E-MISSING] test.yaml:1:1: clean: components needs a limit that says which components are "
-          "small | components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
+          "usage [E-MISSING] test.yaml:1:1: clean: components needs a limit for small components | "
+          "components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
 }

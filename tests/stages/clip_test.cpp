@@ -201,19 +201,17 @@ TEST_CASE("clip that keeps nothing speaks of the planes or the box that it was g
         REQUIRE(run.record.warnings.size() == 1);
         return run.record.warnings[0].message + " | " + run.record.warnings[0].hint;
     };
-    CHECK(told("z=2") ==
-          "clip: nothing of part 'part' was kept | check the position and direction of the plane "
-          "(info prints the bounds), or keep the other side (keep: back)");
+    CHECK(told("z=2") == "clip: nothing of part 'part' was kept | check the position and direction of the "
+                         "plane (facetmill info prints the bounds), or keep the other side (keep: back)");
     CHECK(told("{plane: z=-2, keep: back}").ends_with(", or keep the other side (keep: front)"));
     CHECK(told("{box: {min: [5, 5, 5], max: [6, 6, 6]}}") ==
-          "clip: nothing of part 'part' was kept | check the position and size of the box (info prints the "
-          "bounds), or keep the rest (keep: outside)");
+          "clip: nothing of part 'part' was kept | check the position and size of the box (facetmill info "
+          "prints the bounds), or keep the rest (keep: outside)");
     CHECK(told("{box: {min: [-5, -5, -5], max: [6, 6, 6]}, keep: outside}")
               .ends_with(", or keep the inside (keep: inside)"));
-    CHECK(
-        told("{box: {min: [-5, -5, -5], max: [6, 6, 6]}}") ==
-        "clip: the box does not cut part 'part', which stays whole | check the position and size of the box "
-        "(info prints the bounds)");
+    CHECK(told("{box: {min: [-5, -5, -5], max: [6, 6, 6]}}") ==
+          "clip: the box does not cut part 'part', which stays whole | check the position and size of the "
+          "box (facetmill info prints the bounds)");
 }
 
 TEST_CASE("clip says when everything or nothing stays, and names open contours", "[stages]") {

@@ -40,6 +40,23 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
           std::string::npos);
 }
 
+TEST_CASE("crop converts a drawing to the unit of the scene, or warns", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.path() / "inch.dxf";
+    std::ofstream(file)
+        << "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\n"
+           "LWPOLYLINE\n70\n1\n10\n1\n20\n1\n10\n3\n20\n1\n10\n3\n20\n3\n10\n1\n20\n3\n0\n"
+           "ENDSEC\n0\nEOF\n";
+    auto scene = scene_of(shapes::grid(100, 100));
+    scene.unit = Unit::mm;
+    const auto converted = run_stage("crop", "\"" + file.string() + "\"", scene);
+    CHECK(converted.record.result["footprint_area"].get<double>() == Approx(2580.64));
+    CHECK(converted.warnings().empty());
+    scene.unit = Unit::unknown;
+    CHECK(run_stage("crop", "\"" + file.string() + "\"", scene).warnings() ==
+          std::vector<std::string>{"W-UNITS"});
+}
+
 TEST_CASE("crop leaves triangles only on request", "[stages]") {
     const char* outline = "{footprint: [[0.4, -1], [2, -1], [2, 2], [0.5, 2]], cap: true, keep: both}";
     const auto polygons = run_stage("crop", outline, scene_of(shapes::cube()));
@@ -71,8 +88,8 @@ TEST_CASE("crop stands walls on the outline on request", "[stages]") {
     CHECK(open.scene.materials.empty());
     CHECK(refusal_of("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}",
                      scene_of(shapes::grid(4, 3))) ==
-          "usage [E-CONFLICT] crop: 'cap' needs a cut at the outline, and with whole faces there is none | "
-          "leave out cap, or use by: cut");
+          "usage [E-CONFLICT] crop: 'cap' needs a cut at the outline, so it cannot be used with whole faces "
+          "| remove cap, or use by: cut");
 }
 
 TEST_CASE("crop keeps both sides as two parts", "[stages]") {
@@ -134,12 +151,13 @@ TEST_CASE("crop knows a footprint in degrees beside a mesh in metres", "[stages]
     };
     CHECK(hint().find("degrees") == std::string::npos); // both may be metres
     for (Vec3& p : scene.parts[0].mesh.positions) p += Vec3{500000, 4649000, 0};
-    CHECK(hint().starts_with("is the footprint in degrees?"));
+    CHECK(hint().starts_with("the footprint seems to be in degrees"));
     // Coordinates near 0, 0, or as large as a country, count from a different origin.
     for (const char* local :
          {"[[0, 0], [1, 0], [1, 1]]", "[[-2, -2], [2, -2], [2, 2]]", "[[20, 30], [60, 30], [60, 80]]"})
-        CHECK(hint(local).find("that both count from one origin") != std::string::npos);
-    CHECK(hint("[[-0.25, 5.5], [-0.15, 5.5], [-0.15, 5.7]]").starts_with("is the footprint in degrees?"));
+        CHECK(hint(local).find("that it has the same origin as the mesh") != std::string::npos);
+    CHECK(hint("[[-0.25, 5.5], [-0.15, 5.5], [-0.15, 5.7]]")
+              .starts_with("the footprint seems to be in degrees"));
 }
 
 TEST_CASE("crop refuses footprints before it runs", "[stages]") {

@@ -120,9 +120,9 @@ TEST_CASE("deviation is kept from another file, or from the scene as loaded", "[
               .ends_with("| 'thickness' is called 'wall_thickness' here"));
     CHECK(
         problems_of("measure", test::options({{"attributes", "aera"}})).ends_with("| did you mean 'area'?"));
-    CHECK(problems_of("measure", test::options({{"with", "a.off"}}))
-              .find("goes with the attribute deviation") != std::string::npos);
-    CHECK(problems_of("measure", test::options({{"missing", "1"}})).find("goes with attributes") !=
+    CHECK(problems_of("measure", test::options({{"with", "a.off"}})).find("needs the attribute deviation") !=
+          std::string::npos);
+    CHECK(problems_of("measure", test::options({{"missing", "1"}})).find("needs attributes") !=
           std::string::npos);
 }
 

@@ -189,9 +189,9 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
               .find("cluster cannot lock vertices") != std::string::npos);
     CHECK(problems("{ratio: 10%, method: cluster, lock: boundary, self_intersections: avoid}")
               .find("cluster cannot avoid self-intersections") != std::string::npos);
-    CHECK(problems("{ratio: 10%, method: shortest-edge, weights: {uv: 2}}").find("weights go with") !=
+    CHECK(problems("{ratio: 10%, method: shortest-edge, weights: {uv: 2}}").find("weights need") !=
           std::string::npos);
-    CHECK(problems("{ratio: 10%, constraints: {roundness: 0.2}}").find("constraints go with") !=
+    CHECK(problems("{ratio: 10%, constraints: {roundness: 0.2}}").find("constraints need") !=
           std::string::npos);
     CHECK(problems("{ratio: 10%, method: constrained, topology: allow}").find("keeps the topology") !=
           std::string::npos);
@@ -347,9 +347,8 @@ TEST_CASE("simplify says of a cloud of points that it has no faces, not that it 
     const auto r = run_stage("simplify", options({{"ratio", "50%"}}), scene_of(cloud));
     CHECK(r.mesh().vertex_count() == 4);
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
-    CHECK(
-        r.record.warnings[0].message ==
-        "part 'part' has no faces, which are what simplify makes fewer: the cloud of points stays as it is");
+    CHECK(r.record.warnings[0].message ==
+          "part 'part' has no faces to simplify: the point cloud stays unchanged");
     CHECK(r.record.said.empty());
 }
 
@@ -364,8 +363,8 @@ TEST_CASE("simplify: a target at or above the input is said, and is no failure",
 TEST_CASE("simplify: what topology does not allow is said, and is no failure", "[stages]") {
     const auto r = run_stage("simplify", options({{"faces", "2"}}), scene_of(shapes::tetrahedron()));
     CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-STOPPED"});
-    CHECK(r.record.warnings[0].message ==
-          "part 'part' stopped at 4 triangles, above the target: of the edges left, 6 by topology");
+    CHECK(r.record.warnings[0].message == "part 'part' stopped at 4 triangles, above the target: the "
+                                          "remaining edges are blocked: 6 by topology");
     CHECK(r.record.result["parts"][0]["stopped_by"] == "stuck");
 }
 
@@ -496,9 +495,9 @@ TEST_CASE("simplify stops before the shape is lost, and says so", "[stages]") {
     const auto r = run_stage("simplify", "30%", scene_of(shapes::cube()));
     CHECK(test::same(r.mesh(), shapes::cube()));
     CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-LIMIT"});
-    CHECK(r.record.warnings[0].message == "part 'part' stopped at 12 of 12 triangles, above the target: any "
-                                          "fewer would move the surface by more "
-                                          "than max_quadric_error (1% of part)");
+    CHECK(r.record.warnings[0].message ==
+          "part 'part' stopped at 12 of 12 triangles, above the target: fewer triangles would move the "
+          "surface by more than max_quadric_error (1% of part)");
     const Json& part = r.record.result["parts"][0];
     CHECK(part["stopped_by"] == "max_quadric_error");
     CHECK(part["max_quadric_error"].get<double>() == Approx(0.01 * std::sqrt(3.0)));
@@ -560,8 +559,9 @@ TEST_CASE("simplify: what the limit on the error and the sharing do not go with 
     const auto refuses = [&](const char* text, const char* what) {
         return problems(text).find(what) != std::string::npos;
     };
-    CHECK(refuses("{ratio: 10%, max_error: 1%, max_quadric_error: 1%}", "in place of max_quadric_error"));
-    CHECK(refuses("{ratio: 10%, method: cluster, max_quadric_error: 1%}", "goes with the methods quadric"));
+    CHECK(refuses("{ratio: 10%, max_error: 1%, max_quadric_error: 1%}",
+                  "max_error replaces max_quadric_error"));
+    CHECK(refuses("{ratio: 10%, method: cluster, max_quadric_error: 1%}", "needs the method quadric"));
     CHECK(refuses("{ratio: 10%, method: cluster, share: error}", "no cost that parts could share by"));
     CHECK(refuses("{ratio: 10%, max_quadric_error: -1}", "E-RANGE"));
     CHECK(refuses("{ratio: 10%, max_quadric_error: none}", "a length"));

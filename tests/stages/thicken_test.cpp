@@ -28,7 +28,7 @@ TEST_CASE("thicken resolves folds on request, and names that where they are told
     const Scene scene = scene_of(test::noisy_icosphere(2, 0.3, 1));
     const auto folded = run_stage("thicken", "0.2", scene);
     REQUIRE(folded.record.warnings.size() > 0);
-    CHECK(folded.record.warnings.back().hint.starts_with("thicken: {self_intersections: resolve} makes"));
+    CHECK(folded.record.warnings.back().hint.starts_with("thicken: {self_intersections: resolve} rebuilds"));
     const auto resolved = run_stage("thicken", "{thickness: 0.2, self_intersections: resolve}", scene);
     CHECK(resolved.record.result["parts"][0]["resolved"] == true);
     CHECK(resolved.record.result["parts"][0]["self_intersections"] == 0);
@@ -49,9 +49,9 @@ TEST_CASE("thicken says lengths with their unit", "[stages]") {
         REQUIRE(run.record.said.size() == 1);
         return run.record.warnings[0].message + " | " + run.record.said[0];
     };
-    CHECK(thin(Unit::mm).find("is only 0.133296 mm thick where it should be 0.5 mm | part: wall thickness at "
-                              "least 0.133296 mm, mean ") != std::string::npos);
-    CHECK(thin(Unit::unknown).find("0.133296 scene units thick where it should be 0.5 scene units | ") !=
+    CHECK(thin(Unit::mm).find("is only 0.133296 mm thick instead of 0.5 mm | part: wall thickness at least "
+                              "0.133296 mm, mean ") != std::string::npos);
+    CHECK(thin(Unit::unknown).find("0.133296 scene units thick instead of 0.5 scene units | ") !=
           std::string::npos);
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("thicken answers a thickness below zero with the other side", "[stages
     const Value value = Value::scalar("-2mm", {});
     CHECK(test::problems_of("thicken", value)
               .starts_with(
-                  "E-RANGE 'thickness' must be in the range x > 0, found '-2mm' | leave out the sign"));
+                  "E-RANGE 'thickness' must be in the range x > 0, found '-2mm' | remove the minus sign"));
     CHECK(test::problems_of("thicken", Value::scalar("0", {})) ==
           "E-RANGE 'thickness' must be in the range x > 0, found '0'");
 }

@@ -62,14 +62,14 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
               {0, 0, -6}, {1, 0.5, -4});
     CHECK(run_stage("transform", "{fit: 6}", scene_of(shapes::grid(2, 3))).record.result["fit_factor"] == 2);
     CHECK(failure([&] { run_stage("transform", "{fit: [1, 2]}", block()); }) ==
-          "usage [E-TRANSFORM] test.yaml:1:7: transform: fit takes one length or three, found 2");
+          "usage [E-TRANSFORM] test.yaml:1:7: transform: fit needs one length or three, found 2");
     CHECK(failure([&] { run_stage("transform", "{fit: -1mm}", block()); }) ==
-          "usage [E-TRANSFORM] test.yaml:1:7: transform: the lengths of fit are above 0, found -1mm");
+          "usage [E-TRANSFORM] test.yaml:1:7: transform: the lengths of fit must be above 0, found -1mm");
     Mesh point;
     point.positions = {{1, 2, 3}};
     CHECK(failure([&] {
               run_stage("transform", "{fit: 1}", scene_of(point));
-          }).starts_with("stage [E-TRANSFORM] transform: fit has nothing to scale"));
+          }).starts_with("stage [E-TRANSFORM] transform: fit cannot scale the parts"));
 }
 
 TEST_CASE("transform converts units and the up axis, and sizes stay", "[stages]") {
@@ -136,17 +136,17 @@ TEST_CASE("transform refuses what would flatten the parts", "[stages]") {
     CHECK(refusal("{scale: 0}") ==
           "usage [E-TRANSFORM] test.yaml:1:9: transform: a factor of 0 would flatten the parts");
     CHECK(refusal("{scale: [1, 2]}") ==
-          "usage [E-TRANSFORM] test.yaml:1:9: transform: scale takes one factor or three, found 2");
+          "usage [E-TRANSFORM] test.yaml:1:9: transform: scale needs one factor or three, found 2");
     CHECK(refusal("{matrix: [1, 2]}") ==
-          "usage [E-TRANSFORM] test.yaml:1:10: transform: matrix takes 12 or 16 numbers, found 2");
+          "usage [E-TRANSFORM] test.yaml:1:10: transform: matrix needs 12 or 16 numbers, found 2");
     CHECK(refusal("{rotate: {axis: [0, 0, 0], angle: 3}}") ==
-          "usage [E-TRANSFORM] test.yaml:1:10: transform: the axis of a rotation has no length");
+          "usage [E-TRANSFORM] test.yaml:1:10: transform: the axis of the rotation has zero length");
     CHECK(refusal("{translate: [1, 2]}") ==
-          "usage [E-TRANSFORM] test.yaml:1:13: transform: translate takes three lengths, found 2");
+          "usage [E-TRANSFORM] test.yaml:1:13: transform: translate needs three lengths, found 2");
 }
 
 TEST_CASE("transform names options without effect", "[stages]") {
     CHECK(failure([] {
               run_stage("transform", "{pivot: centre}", scene_of(shapes::cube()));
-          }).find("1:9: transform: 'pivot' goes with scale, rotate or fit") != std::string::npos);
+          }).find("1:9: transform: 'pivot' needs scale, rotate or fit") != std::string::npos);
 }

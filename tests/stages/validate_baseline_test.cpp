@@ -217,8 +217,8 @@ TEST_CASE("what is fixed is told", "[stages]") {
     CHECK(run.record.result["fixed"] == 1);
     CHECK(run.record.result["fixed_locations"] == 6);
     CHECK(run.record.said ==
-          std::vector<std::string>{"2 known failures waived, 1 fixed; 6 known locations waived, 6 fixed: "
-                                   "update_baseline tightens the gate"});
+          std::vector<std::string>{"2 known failures waived, 1 fixed; 6 known locations waived, 6 fixed: use "
+                                   "update_baseline to remove them from the baseline"});
     const auto sound = open.judge(shapes::cube());
     CHECK(Gate::all_passed(sound));
     CHECK(sound.record.result["fixed"] == 3);
@@ -299,7 +299,7 @@ TEST_CASE("what is no baseline is refused", "[stages]") {
     gate.put(R"({"failures":[{"check":"closed","part":"","expected":"true","found":false,"locations":8}]})");
     CHECK(reason() == no + "is not a baseline of validate" + hint);
     gate.put(R"({"facetmill_baseline":2,"failures":[]})");
-    CHECK(reason() == no + "is a baseline of a version that this facetmill does not read" + hint);
+    CHECK(reason() == no + "is a baseline of a version that this facetmill cannot read" + hint);
 }
 
 TEST_CASE("a baseline of very many locations is bounded, and still tells new ones", "[stages]") {

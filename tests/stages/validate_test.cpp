@@ -320,8 +320,8 @@ TEST_CASE("an edge of four faces that clean separated is fit for printing", "[st
 
 TEST_CASE("update_baseline needs a file", "[stages]") {
     CHECK(failure([] { run_stage("validate", "{update_baseline: true}", scene_of({})); }) ==
-          "usage [E-MISSING] test.yaml:1:1: validate: update_baseline needs a file to write | baseline: "
-          "known.json");
+          "usage [E-MISSING] test.yaml:1:1: validate: update_baseline needs a baseline file to write | add "
+          "baseline: known.json");
 }
 
 TEST_CASE("validate shows only the faces beyond the bound, and how many they are", "[stages]") {

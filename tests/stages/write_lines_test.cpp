@@ -116,7 +116,7 @@ TEST_CASE("lines that go on are one statement of an OBJ, under their material", 
 }
 
 TEST_CASE("formats that cannot hold lines say so, and refuse lines alone", "[stages]") {
-    const std::string hint = "lines go to glb, gltf, obj, ply";
+    const std::string hint = "glb, gltf, obj, ply can store lines";
     for (const char* name : {"a.stl", "a.off", "a.3mf", "a.drc"}) {
         INFO(name);
         Bench b;
@@ -124,7 +124,7 @@ TEST_CASE("formats that cannot hold lines say so, and refuse lines alone", "[sta
         b.run("write", Value::scalar(name));
         REQUIRE(b.record.warnings.size() >= 1);
         CHECK(b.record.warnings[0].id == "W-LINES");
-        CHECK(b.record.warnings[0].message.ends_with("cannot hold lines, so 1 part is left out: wires"));
+        CHECK(b.record.warnings[0].message.ends_with("cannot store lines, so 1 part is skipped: wires"));
         CHECK(b.record.warnings[0].hint == hint);
         CHECK(ends_of(b.scene) == ends_of(cube_and_wires()));
         b.scene.parts.erase(b.scene.parts.begin());

@@ -51,7 +51,8 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
         const auto run = run_stage("write", (dir / name).string(), scene);
         CHECK(run.record.warnings.empty());
         REQUIRE(run.record.said.size() == 1);
-        CHECK(run.record.said[0].find("positions with 64 bits: float32 would move them by up to 0.2") == 0);
+        CHECK(run.record.said[0].find(
+                  "positions are written with 64 bits, because float32 would move them by up to 0.2") == 0);
         CHECK(run.state->record.outputs.at(0).read_back["position_error"].get<double>() < 1e-9);
         CHECK(run_stage("write", (dir / ("near_" + std::string(name))).string(), far_away(0))
                   .record.said.empty());

@@ -152,7 +152,8 @@ TEST_CASE("formats of faces only refuse point clouds, and scenes without anythin
         b.scene.parts.emplace_back().mesh.positions = {{0, 0, 0}, {1, 0, 0}};
         return failure([&] { b.run("write", given); });
     };
-    const std::string hint = " | points go to drc, glb, gltf, obj, off, ply; compressed to drc only";
+    const std::string hint =
+        " | drc, glb, gltf, obj, off, ply can store points, but only drc can compress them";
     for (const char* name : {"a.stl", "a.3mf"})
         CHECK(refusal(Value::scalar(name)) ==
               fmt::format(
@@ -162,8 +163,8 @@ TEST_CASE("formats of faces only refuse point clouds, and scenes without anythin
     Bench empty;
     CHECK(failure([&] { empty.run("write", Value::scalar("a.ply")); }) ==
           "stage [E-EMPTY] there is nothing to write to 'a.ply': the scene has neither faces nor points | "
-          "check "
-          "what the stages before kept; the common key when: {vertices: {min: 1}} skips a write");
+          "check the result of the stages before; the common key when: {vertices: {min: 1}} skips an empty "
+          "write");
 }
 
 } // namespace write_points_test

@@ -108,7 +108,7 @@ TEST_CASE("write puts triangles in order, and says what that is worth", "[stages
     CHECK(bytes("auto") == bytes("size"));
     CHECK(failure([&] {
               written({{"path", "a.ply"}, {"order", "draw"}});
-          }).find("'order' goes with") != std::string::npos);
+          }).find("'order' works with") != std::string::npos);
     CHECK(failure([&] {
               written({{"path", "a.glb"}, {"order", "keep"}, {"draco", "true"}});
           }).find("'order' and 'draco' exclude each other") != std::string::npos);
@@ -125,13 +125,14 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     REQUIRE(b.record.warnings.size() == 1);
     CHECK(b.record.warnings[0].id == "W-ROUNDED");
     CHECK(b.record.warnings[0].message ==
-          fmt::format("'{}' is less sound when read back than the scene: 2 degenerate_faces (before: 0)",
+          fmt::format("'{}' has more defects when read back than the scene: 2 degenerate_faces (before: 0)",
                       "c.ply"));
-    CHECK(b.record.warnings[0].hint == "32-bit floats put 1 point on others: precision: full keeps all bits");
+    CHECK(b.record.warnings[0].hint ==
+          "32-bit floats moved 1 point onto others: use precision: full to keep all bits");
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
     b.run("write", Value::scalar("c.stl"));
     REQUIRE(b.record.warnings.size() == 2);
-    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl put 1 point on others: use clean before "
+    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl moved 1 point onto others: use clean before "
                                        "write, or write PLY, OBJ or OFF with precision: full");
 }
 
@@ -175,9 +176,9 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
     b.scene.unit = Unit::m;
     b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = touching_cubes();
-    CHECK(told_of(b, Value::scalar("c.stl")) == "stl has no shared vertices, so corners at the same position "
-                                                "are one when it is read (2 fewer): write "
-                                                "3MF, PLY, OBJ or OFF, where they stay apart");
+    CHECK(told_of(b, Value::scalar("c.stl")) ==
+          "stl has no shared vertices, so corners at the same position are merged when it is read (2 fewer): "
+          "write 3MF, PLY, OBJ or OFF, which keep them separate");
     b.record.warnings.clear();
     CHECK(told_of(b, Value::scalar("c.glb")) ==
           "vertices of glb at the same position are merged when it is read (2 fewer): mesh_manifold: true, "
@@ -198,14 +199,14 @@ TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lin
     std::vector<Value::Entry> given{{"path", {}, Value::scalar("b.glb")},
                                     {"draco", {}, options({{"position_bits", "3"}})}};
     const std::string coarse = told_of(b, Value::map(given));
-    CHECK(coarse.find("Draco's 3 bits put ") == 0);
-    CHECK(coarse.ends_with(" points on others: use more draco.position_bits, or no draco"));
+    CHECK(coarse.find("Draco's 3 bits moved ") == 0);
+    CHECK(coarse.ends_with(" points onto others: use more draco.position_bits, or no draco"));
     mesh = shapes::grid(1, 1); // a corner so near the diagonal that float32 puts it on the diagonal
     for (Vec3& p : mesh.positions) p += Vec3{1 << 20, 0, 0};
     mesh.positions[1] = {(1 << 20) + 0.5 - 1e-9, 0.5, 0};
     b.record.warnings.clear();
     CHECK(told_of(b, Value::scalar("l.ply")) ==
-          "32-bit floats moved points onto lines of others: precision: full keeps all bits");
+          "32-bit floats moved points onto lines of others: use precision: full to keep all bits");
 }
 
 TEST_CASE("write makes triangles for readers of no other faces, and leaves the scene its own", "[stages]") {
@@ -263,9 +264,9 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
         CHECK((mesh.find("NORMAL", Domain::wedge) != nullptr) == (std::string_view(normals) != "keep"));
     }
     CHECK(problems_of("write", options({{"path", "a.glb"}, {"feature_angle", "30"}})) ==
-          "E-CONFLICT write: 'feature_angle' goes with normals: smooth only | add normals: smooth");
+          "E-CONFLICT write: 'feature_angle' needs normals: smooth | add normals: smooth");
     CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
-              .starts_with("E-CONFLICT write: 'normals' goes with 3d-tiles, drc, glb, gltf, obj, off, ply, "
+              .starts_with("E-CONFLICT write: 'normals' works with 3d-tiles, drc, glb, gltf, obj, off, ply, "
                            "not with stl"));
 }
 
@@ -279,10 +280,10 @@ TEST_CASE("write refuses what it cannot mean", "[stages]") {
           "usage [E-FORMAT] the suffix of 'c.xyz' names no format | write .ply, which CloudCompare and "
           "others convert");
     CHECK(failure([&] { b.run("write", Value::scalar("c.DXF")); }) ==
-          "usage [E-FORMAT] the suffix of 'c.DXF' names no format | "
-          "section: {path: c.DXF} draws what a plane cuts");
+          "usage [E-FORMAT] the suffix of 'c.DXF' names no format | use section: {path: c.DXF} to draw a "
+          "plane section");
     CHECK(failure([&] {
               b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
-          }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when it "
-                "is loaded: load: {path: ..., unit: mm}");
+          }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when "
+                "you load it: load: {path: ..., unit: mm}");
 }

@@ -8,7 +8,39 @@ namespace facetmill {
 
 namespace fs = std::filesystem;
 
-bool is_glob(std::string_view text) { return text.find_first_of("*?[") != std::string_view::npos; }
+namespace {
+
+/// Alternatives in braces, with the text around them.
+struct Alternatives {
+    std::size_t begin, end; ///< of the braces
+    std::vector<std::string_view> all;
+};
+
+/// The first braces within a component of a path that hold a comma outside further braces.
+std::optional<Alternatives> first_alternatives(std::string_view text) {
+    for (std::size_t begin = text.find('{'); begin != text.npos; begin = text.find('{', begin + 1)) {
+        Alternatives found{begin, begin, {}};
+        std::size_t depth = 0, from = begin + 1;
+        for (std::size_t i = begin; i < text.size() && text[i] != '/'; ++i) {
+            if (text[i] == '{') ++depth;
+            const bool closes = text[i] == '}' && --depth == 0;
+            if (!closes && !(text[i] == ',' && depth == 1)) continue;
+            found.all.push_back(text.substr(from, i - from));
+            from = i + 1;
+            if (!closes) continue;
+            found.end = i + 1;
+            break;
+        }
+        if (found.end > begin && found.all.size() > 1) return found;
+    }
+    return {};
+}
+
+} // namespace
+
+bool is_glob(std::string_view text) {
+    return text.find_first_of("*?[") != text.npos || first_alternatives(text).has_value();
+}
 
 namespace {
 
@@ -36,6 +68,16 @@ std::optional<std::size_t> matched_unit(std::string_view pattern, char c) {
     return in != negated ? std::optional<std::size_t>(i + 1) : std::nullopt;
 }
 
+/// As glob_matches, with alternatives in braces.
+bool component_matches(const std::string& pattern, std::string_view text) {
+    const auto some = first_alternatives(pattern);
+    if (!some) return glob_matches(pattern, text);
+    return std::any_of(some->all.begin(), some->all.end(), [&](std::string_view one) {
+        return component_matches(
+            pattern.substr(0, some->begin) + std::string(one) + pattern.substr(some->end), text);
+    });
+}
+
 void expand(const fs::path& base, std::vector<fs::path>::const_iterator component,
             std::vector<fs::path>::const_iterator end, std::vector<fs::path>& found) {
     std::error_code ignored;
@@ -52,7 +94,7 @@ void expand(const fs::path& base, std::vector<fs::path>::const_iterator componen
         if (name == "**") {
             if (entry.is_directory(ignored) && !entry.is_symlink(ignored))
                 expand(base / child, component, end, found);
-        } else if (glob_matches(name, child)) {
+        } else if (component_matches(name, child)) {
             expand(base / child, component + 1, end, found);
         }
     }
@@ -91,7 +133,7 @@ bool components_match(Component pattern, Component pattern_end, Component path, 
     if (*pattern == "**")
         return components_match(pattern + 1, pattern_end, path, path_end) ||
                (path != path_end && components_match(pattern, pattern_end, path + 1, path_end));
-    return path != path_end && glob_matches(pattern->string(), path->string()) &&
+    return path != path_end && component_matches(pattern->string(), path->string()) &&
            components_match(pattern + 1, pattern_end, path + 1, path_end);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Shell-like patterns: * (any run of characters), ? (one character), [abc], [a-z], [!a]. A backslash makes
-// the next character literal.
+// the next character literal. Paths also have alternatives within a component: *.{obj,glb}.
 
 #include <filesystem>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// True if the text contains a wildcard.
+/// True if the text contains a wildcard, or alternatives in braces.
 bool is_glob(std::string_view text);
 
 /// True if the pattern matches the whole text. The time is at most proportional to pattern length times text

@@ -1,6 +1,7 @@
 #include "geometry/boolean/redrawn.hpp"
 
 #include "base/math/predicates.hpp"
+#include "geometry/edit/redrawn_faces.hpp"
 #include "mesh/topology.hpp"
 #include "parallel/parallel.hpp"
 
@@ -29,7 +30,7 @@ class Flatness {
         const Index d = corner(t, j + 2);
         if (!is_planar(abc, d)) return false;
         return std::all_of(mesh_.attributes.begin(), mesh_.attributes.end(), [&](const Attribute& a) {
-            if (a.domain == Domain::face) return is_same(a, triangles_.face[s], triangles_.face[t]);
+            if (a.domain == Domain::face) return is_same_value(a, triangles_.face[s], triangles_.face[t]);
             const bool of_wedges = a.domain == Domain::wedge;
             if (of_wedges && (mesh_.corners[abc[0]] != mesh_.corners[corner(t, j + 1)] ||
                               mesh_.corners[abc[1]] != mesh_.corners[corner(t, j)]))
@@ -53,14 +54,6 @@ class Flatness {
         return false;
     }
 
-    static bool is_same(const Attribute& a, Index i, Index j) {
-        for (int k = 0; k < a.components; ++k)
-            if (const double x = a.value(i, k), y = a.value(j, k);
-                !(x == y || (std::isnan(x) && std::isnan(y))))
-                return false;
-        return true;
-    }
-
     /// The barycentric weights of d in the triangle abc; d may be outside it.
     std::array<double, 3> weights(const Triple& abc, Index d) const {
         const Vec3 &a = mesh_.point(abc[0]), u = mesh_.point(abc[1]) - a, v = mesh_.point(abc[2]) - a,
@@ -73,7 +66,9 @@ class Flatness {
     /// and 64-bit floats match within their rounding error.
     static bool is_linear(const Attribute& a, const std::array<Index, 4>& at,
                           const std::array<double, 3>& weight) {
-        if (is_same(a, at[0], at[1]) && is_same(a, at[0], at[2]) && is_same(a, at[0], at[3])) return true;
+        if (is_same_value(a, at[0], at[1]) && is_same_value(a, at[0], at[2]) &&
+            is_same_value(a, at[0], at[3]))
+            return true;
         const bool single = std::holds_alternative<std::vector<float>>(a.data);
         if (a.role == Role::index || (!single && !std::holds_alternative<std::vector<double>>(a.data)))
             return false;

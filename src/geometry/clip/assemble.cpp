@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::size_t block = 16384;
 
-/// The remaining old elements, and the new number of each element; none if removed.
+/// The old elements that remain, and the new number of each old element (none if removed).
 struct Renumbering {
     std::vector<Index> kept, number;
 };
 
-/// Numbers the elements that stays(i) likes, in order.
+/// Numbers the elements for which stays(i) is true, in order.
 template <class Stays>
 Renumbering renumber(std::size_t n, Stays&& stays) {
     Renumbering r;
@@ -117,8 +117,8 @@ class Assembler {
         return static_cast<Index>(vertices().kept.size() + (v - from_.vertex_count()));
     }
 
-    /// A cap with its own normals or coordinates has a wedge at each of its vertices, with the sources of
-    /// the wall's wedge. In this order copies come before points on edges, and these before mixes.
+    /// If a cap has its own normals or coordinates, each of its vertices gets a new wedge with the sources
+    /// of the wall's wedge. The order is: copies, points on edges, mixes.
     void number_cap_wedges() {
         own_wedges_ = !cap_.corners.empty() && caps_have_own_wedges(from_);
         if (!own_wedges_) return;
@@ -188,11 +188,12 @@ class Assembler {
         out_.wedge_vertex[new_wedge(w)] = new_vertex(v);
     }
 
-    /// Faces and corners of a stretch of faces of the old mesh.
+    /// The faces and corners that a range of old faces becomes.
     struct Count {
         std::size_t faces = 0, corners = 0;
     };
-    /// Calls whole(f) for faces that stay and piece(i) for polygons that replace one, in order of the faces.
+    /// Calls whole(f) for each face that stays and piece(i) for each polygon that replaces a face, in order
+    /// of the faces.
     template <class Whole, class Piece>
     void for_kept(std::size_t begin, std::size_t end, Whole&& whole, Piece&& piece) const {
         std::size_t i = static_cast<std::size_t>(
@@ -258,7 +259,7 @@ class Assembler {
         }
     }
 
-    /// The plane with its normal the way the cap's faces look.
+    /// The plane, with its normal in the direction of the cap's faces.
     Plane outward() const {
         const auto end = static_cast<Index>(out_.corners.size());
         const Vec3 sum = area_of_triangles(out_, end - static_cast<Index>(cap_.corners.size()), end);
@@ -275,11 +276,11 @@ class Assembler {
     const Cap& cap_;
     Mesh out_;
     MeshProvenance provenance_;
-    Renumbering wedges_, vertices_; ///< vertices_ only with seams
+    Renumbering wedges_, vertices_; ///< vertices_ is filled only with seams
     bool own_wedges_ = false;
     std::size_t cap_copies_ = 0, cap_edges_ = 0, cap_face_ = 0;
     std::vector<Index> cap_order_; ///< cap vertices by their wall wedge
-    std::vector<Index> cap_wedge_; ///< [cap vertices] new wedge, when the cap has its own
+    std::vector<Index> cap_wedge_; ///< [cap vertices] new wedge, if the cap has its own wedges
 };
 
 } // namespace

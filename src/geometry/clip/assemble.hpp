@@ -1,5 +1,5 @@
 #pragma once
-// Puts one side of a cut together: kept faces, pieces, cap, attributes. For clip only.
+// Assembles one side of a cut from kept faces, pieces, cap and attributes. Only clip uses it.
 
 #include "geometry/clip/cap.hpp"
 #include "geometry/clip/clip.hpp"
@@ -12,7 +12,7 @@ struct ClippedSide {
     AttributeChanges changes;
 };
 
-/// side: 1 front, -1 back. Expects flat faces settled.
+/// side: 1 front, -1 back. The cut must have decided about faces in the plane.
 [[nodiscard]] ClippedSide assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
                                    const CapPaint& paint);
 

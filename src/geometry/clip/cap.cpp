@@ -13,19 +13,18 @@ namespace facetmill {
 
 namespace {
 
-// The edges in the plane of a cut where the kept faces end.
+// Finds the edges in the plane of a cut at which the kept faces end.
 
-/// Undirected edges in the plane with the net count of kept faces that run along them, ascending by (low,
-/// high).
+/// The undirected edges in the plane at which kept faces do not cancel, ascending by (low, high).
 struct CutSection {
     struct Edge {
         Index low, high;             ///< vertices
-        Index low_wedge, high_wedge; ///< of the first kept face along the edge
-        int count;                   ///< uses from low to high minus uses from high to low; never 0
+        Index low_wedge, high_wedge; ///< wedges of the first kept face along the edge
+        int count; ///< faces that run from low to high, minus faces that run from high to low; never 0
     };
     std::vector<Edge> edges;
 
-    /// The edge between two vertices, or none.
+    /// The index of the edge between two vertices, or none.
     Index number(Index low, Index high) const;
 };
 
@@ -38,8 +37,8 @@ Index CutSection::number(Index low, Index high) const {
                                                                    : none;
 }
 
-/// The section of one side: at every edge outside of it the directions of the kept faces cancel, when they do
-/// so in the mesh.
+/// Finds the section of one side. In a closed mesh, the directions of the kept faces cancel at all other
+/// edges.
 CutSection find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
     std::vector<CutSection::Edge> uses;
     const auto collect = [&](std::span<const Index> polygon) {
@@ -68,7 +67,7 @@ CutSection find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
     return section;
 }
 
-/// Union-find over the vertices of a section, with the number of outgoing minus incoming edges.
+/// Union-find over the vertices of a section. Each vertex has its number of outgoing minus incoming edges.
 struct SectionGraph {
     std::vector<Index> vertices, root;
     std::vector<long long> balance;
@@ -103,7 +102,7 @@ struct SectionGraph {
 /// differ in number). Returns their ends, in order of their lowest vertex.
 std::vector<OpenEnd> drop_open_contours(CutSection& section, const PlaneCut& cut) {
     SectionGraph graph(section);
-    std::vector<Index> number(graph.vertices.size(), none); // of the open contour with that root
+    std::vector<Index> number(graph.vertices.size(), none); // number of the open contour with this root
     std::vector<OpenEnd> open;
     for (Index i = 0; i < graph.vertices.size(); ++i) {
         if (graph.balance[i] == 0 || number[graph.find(i)] != none) continue;
@@ -154,7 +153,7 @@ class Capper {
             const Vec3& p = cut_.point(v);
             contours_.points.push_back({p[first_], p[second_]});
         }
-        // The cap has the section for boundary, the other way round.
+        // The boundary of the cap is the section in the opposite direction.
         for (const auto& e : section_.edges)
             contours_.edges.push_back({local(e.low), local(e.high), -e.count});
     }
@@ -170,7 +169,7 @@ class Capper {
         return i < local_.size() ? cut_.point(local_[i]) : cap_.extra.points[i - local_.size()];
     }
 
-    /// Appends the sources of a wedge or vertex of the cut to a mix.
+    /// Appends the sources of a wedge or vertex to a mix.
     static void add_sources(Provenance& mixes, Index id, std::size_t old,
                             const std::vector<Provenance::Edge>& fresh, double weight) {
         if (id < old) {
@@ -183,7 +182,7 @@ class Capper {
         mixes.mix_weights.insert(mixes.mix_weights.end(), {weight * (1 - e.t), weight * e.t});
     }
 
-    /// The vertices where contours cross.
+    /// Adds vertices where contours cross.
     void add_points() {
         Provenance& mixes = cap_.extra.vertices;
         for (const auto& a : filling_.added) {
@@ -198,7 +197,7 @@ class Capper {
         }
     }
 
-    /// The points inside section edge e, by its number; from its low vertex to its high one.
+    /// The points inside the section edge with number e, from its low vertex to its high vertex.
     std::span<const Index> path(std::size_t e) const {
         return {filling_.path.data() + filling_.path_offsets[e],
                 filling_.path.data() + filling_.path_offsets[e + 1]};
@@ -293,8 +292,9 @@ class Capper {
     int side_;
     Pieces& pieces_;
     CutSection section_;
-    std::size_t dropped_ = 2, first_ = 0, second_ = 1; ///< axes: not seen, and those of the contours' plane
-    std::vector<Index> local_;                         ///< [points of the contours] -> vertex, ascending
+    std::size_t dropped_ = 2, first_ = 0,
+                second_ = 1;   ///< the axis that is projected away, and the axes of the contours' plane
+    std::vector<Index> local_; ///< [points of the contours] vertices, ascending
     Contours contours_;
     Filling filling_;
     std::map<std::array<Index, 3>, Index> wedges_; ///< (low wedge, high wedge, point) -> extra wedge

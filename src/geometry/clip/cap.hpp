@@ -1,16 +1,16 @@
 #pragma once
-// Caps that close a clipped mesh in the plane of the cut. For clip only.
+// Makes caps that close a clipped mesh in the plane of the cut. Only clip uses it.
 
 #include "geometry/cut/cut.hpp"
 
 namespace facetmill {
 
-/// Points that a cap adds to the cut, in the numbering of PlaneCut: where contours cross, and where they run
-/// through each other's points.
+/// Points that a cap adds to the cut, numbered after those of PlaneCut. Contours cross, or pass through each
+/// other's points, at them.
 struct ExtraPoints {
     std::vector<Vec3> points;        ///< [extra vertices]
     Provenance vertices, wedges;     ///< mixes only; wedges stays empty without seams
-    std::vector<Index> wedge_vertex; ///< [extra wedges] -> vertex; empty without seams
+    std::vector<Index> wedge_vertex; ///< [extra wedges] vertices; empty without seams
 };
 
 /// A contour of the cut that does not close.
@@ -21,15 +21,15 @@ struct OpenEnd {
 
 struct Cap {
     std::vector<Index> corners;  ///< vertices, three by three
-    std::vector<Index> vertices; ///< that the corners use, ascending
-    std::vector<Index> wedges;   ///< of the walls, at each of vertices
+    std::vector<Index> vertices; ///< the vertices that the corners use, ascending
+    std::vector<Index> wedges;   ///< the walls' wedge at each of these vertices
     ExtraPoints extra;
     std::vector<OpenEnd> open;
 };
 
-/// The cap of one side. pieces are that side's pieces. Points that the cap puts on their edges are inserted,
-/// and whole faces that get such points become pieces (class bit replaced in cut). If no contour is open,
-/// the kept faces, pieces and cap together have no boundary in the plane.
+/// Makes the cap of one side. pieces: the pieces of this side. The cap's points on their edges are inserted.
+/// Whole faces that get such points become pieces (class bit replaced in cut). If no contour is open, the
+/// kept faces, pieces and cap together have no boundary in the plane.
 [[nodiscard]] Cap make_cap(PlaneCut& cut, int side, Pieces& pieces);
 
 } // namespace facetmill

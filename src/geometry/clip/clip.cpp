@@ -13,9 +13,10 @@ namespace facetmill {
 
 namespace {
 
-// Clips away a convex body bounded by planes.
+// Clips by one plane after the other, and by convex bodies.
 
-/// Attributes that number the elements of the scored mesh, so that the clipped one can be traced to it.
+/// Name of the attributes that number the elements of the scored mesh, to trace the elements of the clipped
+/// mesh.
 constexpr std::string_view trace = "#trace";
 
 void number(Mesh& mesh, Domain domain, Index first) {
@@ -32,7 +33,8 @@ void forget(Mesh& mesh) {
     for (const Domain d : {Domain::vertex, Domain::wedge, Domain::face}) mesh.drop(trace, d);
 }
 
-/// The faces of the scored mesh that the front did not take, and the front's caps turned round.
+/// Builds the back: the faces of the scored mesh that are not in the front, and the reversed caps of the
+/// front.
 class Rest {
   public:
     Rest(const Mesh& scored, const Mesh& front) : from_(scored), front_(front) {}
@@ -51,14 +53,13 @@ class Rest {
     }
 
   private:
-    /// The scored mesh's vertex that a vertex of the front is, or none: the caps' own are where no such
-    /// vertex is.
+    /// The vertex of the scored mesh that a vertex of the front comes from; none for new vertices of caps.
     Index traced(Index v) const {
         const Index i = numbers_of(front_, Domain::vertex)[v];
         return i < from_.vertex_count() && from_.positions[i] == front_.positions[v] ? i : none;
     }
 
-    /// Points that caps put on the edges of the front's walls, where contours cross.
+    /// Finds points that caps inserted into edges of the front's walls, where contours cross.
     void find_inserted() {
         for (Index f = 0; f < front_.face_count(); ++f) {
             const Index source = numbers_of(front_, Domain::face)[f];
@@ -97,7 +98,7 @@ class Rest {
         return std::move(kept.mesh);
     }
 
-    /// A vertex per point and, with seams, a wedge per pair of wedges.
+    /// Inserts a vertex per point and, with seams, a wedge per pair of wedges.
     void insert(Mesh& out, MeshProvenance& provenance, Index a, Index b) {
         const Index va = from_.vertex_of_wedge(a), vb = from_.vertex_of_wedge(b);
         const auto at = inserted_.find({std::min(va, vb), std::max(va, vb)});
@@ -138,7 +139,7 @@ class Rest {
             walls.wedge_vertex.resize(walls.vertex_count());
             for (Index i = 0; i < walls.wedge_vertex.size(); ++i) walls.wedge_vertex[i] = i;
         }
-        // Caps and walls meet at the walls' vertices.
+        // Caps use the walls' vertices where they meet.
         const auto vertex_numbers = numbers_of(caps, Domain::vertex),
                    wedge_numbers = numbers_of(caps, Domain::wedge);
         for (std::size_t c = first_corner; c < walls.corner_count(); ++c) {
@@ -164,7 +165,7 @@ class Rest {
         return at == vertex_at_.end() ? none : at->second;
     }
 
-    /// Only the front's caps, reversed.
+    /// The reversed caps of the front.
     Mesh turned_caps() const {
         RedrawnFaces caps(front_);
         Mesh& out = caps.mesh;
@@ -192,10 +193,10 @@ class Rest {
     }
 
     const Mesh &from_, &front_;
-    std::vector<std::uint8_t> taken_;                               ///< [faces of from_]
-    std::map<std::pair<Index, Index>, std::vector<Vec3>> inserted_; ///< by edge, from its low vertex on
-    std::map<std::array<double, 3>, Index> vertex_at_;              ///< inserted points -> vertex
-    std::map<std::array<Index, 3>, Index> wedge_at_;                ///< (wedges, vertex) -> wedge
+    std::vector<std::uint8_t> taken_; ///< [faces of from_] 1 for faces in the front
+    std::map<std::pair<Index, Index>, std::vector<Vec3>> inserted_; ///< by edge, in order from its low vertex
+    std::map<std::array<double, 3>, Index> vertex_at_;              ///< vertices of inserted points
+    std::map<std::array<Index, 3>, Index> wedge_at_; ///< wedges by (wedges of the edge, vertex)
 };
 
 FlatSide flat_side(const Mesh& mesh, const ClipSettings& settings) {
@@ -203,10 +204,10 @@ FlatSide flat_side(const Mesh& mesh, const ClipSettings& settings) {
     return settings.coplanar == Coplanar::keep ? FlatSide::front : FlatSide::back;
 }
 
-/// Clips by all planes at once: the front is in front of every plane, as after successive cuts; the back is
-/// the rest. The mesh is first scored along the body's faces, and the back gets the reversed caps of the
-/// front. So the two fit exactly, and with caps a closed mesh gives two closed meshes. settings.keep is back
-/// or both.
+/// Clips by all planes at once. The front is in front of every plane, as after successive cuts; the back is
+/// the rest. The mesh is first scored along the body's faces. The back gets the reversed caps of the front,
+/// so both fit exactly, and with caps a closed mesh gives two closed meshes. settings.keep must be back or
+/// both.
 ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     ClipResult all;
     ClipSettings inner = settings;
@@ -233,7 +234,7 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     all = std::move(front);
     all.cut_faces = cut;
     forget_change(all.changes, trace);
-    // Nothing was clipped away: all of it is inside.
+    // The whole mesh is inside the body.
     all.back = Rest(mesh, all.front).run();
     forget(all.front);
     if (settings.keep == Keep::back) all.front = {};
@@ -306,7 +307,7 @@ class Clipper {
         }
     }
 
-    /// The plane misses the mesh.
+    /// Keeps or drops a mesh that the plane misses.
     void keep_or_drop(Mesh& mesh, const PlaneCut& cut) {
         if (settings_.keep == Keep::both) {
             (cut.above_count > 0 ? result_.front : result_.back) = std::move(mesh);
@@ -350,8 +351,8 @@ class Clipper {
     const ClipSettings& settings_;
     ClipResult result_;
     double snap_ = 0;
-    Index last_cut_ = 0, last_group_ = 0; ///< existing numbers
-    std::vector<Vec3> made_;              ///< by the caps of a plane
+    Index last_cut_ = 0, last_group_ = 0; ///< the largest existing numbers
+    std::vector<Vec3> made_;              ///< points made by the caps of a plane
 };
 
 } // namespace

@@ -7,76 +7,75 @@
 namespace facetmill {
 
 enum class Keep {
-    front, ///< the side of the plane's normal
+    front, ///< in the direction of the plane's normal
     back,  ///< the other side
-    both,  ///< both sides, each as a mesh of its own
+    both,  ///< both sides, as separate meshes
 };
 
 /// The treatment of faces with all vertices in the plane, for open meshes.
 enum class Coplanar { keep, drop };
 
 struct ClipSettings {
-    std::vector<Plane> planes; ///< in the mesh's own space; applied in order
-    Keep keep = Keep::front;   ///< both takes one plane, or a convex body
-    /// The planes bound a convex body and face into it. The back is then everything outside the body,
-    /// instead of the back of each plane.
+    std::vector<Plane> planes; ///< planes in the mesh's own space, applied in order
+    Keep keep = Keep::front;   ///< `both` needs a single plane, or a convex body
+    /// The planes bound a convex body and face into it. The back is then the outside of the body, not the
+    /// back of each plane.
     bool convex = false;
-    bool cap = false;         ///< close the openings of the cut
-    bool triangulate = false; ///< leave triangles only, also of faces that were not cut
+    bool cap = false;         ///< closes the openings of the cut
+    bool triangulate = false; ///< triangulates all faces, including faces that were not cut
     Coplanar coplanar = Coplanar::keep;
-    /// The primitive of cap faces; appended to the mesh's primitives unless an equal primitive exists. None:
+    /// The primitive of cap faces, appended to the mesh's primitives unless an equal one exists. Empty:
     /// primitive 0.
     std::optional<Primitive> cap_primitive;
-    /// Number cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group; both continue
+    /// Numbers cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group. Both continue
     /// after the largest existing number.
     bool cap_numbers = false;
-    /// Take float32 positions (all three coordinates) within one float32 ulp of the mesh's bounds as on the
-    /// plane.
+    /// Treats float32 positions within one float32 ulp of the mesh's bounds as on the plane. All three
+    /// coordinates must be float32 values.
     bool snap = false;
     CutMemory memory = {}; ///< points known to be on planes
 };
 
 /// A contour of the cut that could not be capped, because it does not close.
 struct OpenContour {
-    std::size_t plane = 0; ///< which of the planes
-    std::size_t edges = 0; ///< how many edges it has
-    Vec3 at;               ///< where it ends (one of its ends), in the mesh's own space
+    std::size_t plane = 0; ///< the index of the plane
+    std::size_t edges = 0; ///< the number of its edges
+    Vec3 at;               ///< one of its ends, in the mesh's own space
 };
 
 struct ClipResult {
     Mesh front, back; ///< the kept parts; a side that was not requested stays empty
     AttributeChanges changes;
-    std::size_t cut_faces = 0;               ///< that a plane passed through
+    std::size_t cut_faces = 0;               ///< faces that a plane passed through
     std::size_t on_plane = 0;                ///< vertices that count as on a plane
-    std::size_t snapped = 0, remembered = 0; ///< among them, by snap and by memory
+    std::size_t snapped = 0, remembered = 0; ///< the part of these vertices due to snap, and due to memory
     std::size_t cap_faces = 0;
     bool changed = false;          ///< false: no plane met the mesh and all of it was kept
-    std::vector<OpenContour> open; ///< not capped; empty unless cap
+    std::vector<OpenContour> open; ///< contours that were not capped; empty unless `cap`
     CutMemory memory;              ///< the updated memory
 };
 
 /// Every vertex is classified once per plane, by the exact sign of side(plane, p), so neighbours always
-/// agree. Points built on a plane count as on it when it recurs (see CutMemory), so that repeated and
-/// adjoining cuts meet without slivers. A face with vertices strictly on both sides is cut directly, whether
-/// triangle, quad or n-gon (convex or not). Each cut edge gets one new vertex, shared by all faces at it,
-/// and one new wedge per pair of wedges, computed with the edge's ends in index order. For an axis-aligned
-/// plane its coordinate is exactly the plane's. A face that only touches the plane stays or goes whole. A
-/// face in the plane of a closed mesh (and with Keep::both) stays on the side that its normal points away
-/// from; for an open mesh settings.coplanar decides.
-/// Caps: for a closed mesh, the edges in the plane at which the directions of the kept faces do not cancel
-/// are closed contours. They are projected along the normal's dominant axis and filled by a constrained
-/// Delaunay triangulation that emits each triangle as often as the contours turn around it. So islands and
-/// holes nest, and contours that cross still close. Points where contours cross are also inserted into the
-/// wall faces. Therefore every closed mesh stays closed. It stays edge-manifold unless the plane passes
-/// exactly through a vertex or an edge, or its parts touch in the plane. Open contours are reported and left
-/// open.
-/// Attributes: kept elements keep their attributes; new vertices and wedges are interpolated; pieces copy
-/// their face's. Cap faces have zeros in face attributes other than "primitive". When the mesh has NORMAL or
-/// TEXCOORD_0, caps get their own wedges with the plane's normal and planar coordinates (the cap's larger
-/// extent is 1), the rest interpolated as on the walls. Vertices that no kept face uses are removed, unless
-/// they are isolated on the kept side. Order: kept faces and pieces in the order of their faces, followed by
-/// the cap. Throws usage (E-PLANE) for an invalid plane, and for Keep::both with several planes without
-/// `convex`. After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
+/// agree. Points built on a plane count as on it when the plane occurs again (see CutMemory), so that
+/// repeated and adjoining cuts meet without slivers. A face with vertices strictly on both sides is cut
+/// without triangulation, even if it is concave. Each cut edge gets one new vertex, shared by its faces, and
+/// one new wedge per pair of wedges. Both are computed with the edge's ends in index order. On an
+/// axis-aligned plane, the vertex has exactly the plane's coordinate. A face that only touches the plane is
+/// kept or removed whole. A face in the plane of a closed mesh (and with Keep::both) stays on the side that
+/// its normal points away from; for an open mesh settings.coplanar decides. Caps: the edges in the plane at
+/// which the directions of the kept faces do not cancel form contours, which are closed in a closed mesh.
+/// They are projected along the normal's dominant axis and filled by a constrained Delaunay triangulation.
+/// Each triangle is emitted as often as the contours wind around it, so nested islands, holes and crossing
+/// contours close. Points where contours cross are also inserted into the wall faces. So a closed mesh stays
+/// closed. It stays edge-manifold unless the plane passes exactly through a vertex or an edge, or its parts
+/// touch in the plane. Open contours are reported and left open. Attributes: kept elements keep their
+/// attributes; new vertices and wedges are interpolated; pieces copy those of their face. Cap faces have
+/// zeros in face attributes other than "primitive". When the mesh has NORMAL or TEXCOORD_0, caps get their
+/// own wedges with the plane's normal and planar coordinates (the cap's larger extent is 1), the rest
+/// interpolated as on the walls. Vertices that no kept face uses are removed, unless they are isolated on
+/// the kept side. Order: kept faces and pieces in the order of their faces, followed by the cap. Throws a
+/// usage error (E-PLANE) for an invalid plane, and for Keep::both with several planes without `convex`.
+/// After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
 [[nodiscard]] ClipResult clip(Mesh mesh, const ClipSettings& settings);
 
 } // namespace facetmill

@@ -56,7 +56,7 @@ class Cropper {
             1024);
     }
     /// Finds vertices near the outline. They count as on the outline, and as on the planes of its segments
-    /// there.
+    /// nearby.
     void snap() {
         double scale = 0;
         for (const auto& row : settings_.to_world.m)
@@ -70,7 +70,7 @@ class Cropper {
         const double rounding = std::ldexp(view_.snap, -27); // 4 units in the last place
         struct Found {
             std::size_t off = 0;
-            std::vector<std::pair<Index, Vec3>> points; ///< with the segments that contain them
+            std::vector<std::pair<Index, Vec3>> points; ///< points, with the segments that contain them
         };
         const auto look_at = [&](std::size_t v, Found& some) {
             if (!is_float32(mesh_.positions[v])) return;
@@ -101,7 +101,7 @@ class Cropper {
         result_.snapped += found.off;
         remember(found.points);
     }
-    /// Stores points, each with the segment whose plane contains it.
+    /// Stores each point with the segment whose plane contains it.
     void remember(const std::vector<std::pair<Index, Vec3>>& points) {
         std::map<Index, std::vector<Vec3>> of_segment;
         for (const auto& [segment, point] : points) of_segment[segment].push_back(point);
@@ -135,7 +135,7 @@ class Cropper {
         result_.changes = kept_changes(mesh_.attributes);
     }
 
-    // --- by complete faces
+    // --- keeping complete faces
 
     bool stays(Index f, std::vector<Vec2>& face) const {
         if (settings_.by == CropBy::centre) {
@@ -178,7 +178,7 @@ class Cropper {
         result_.mesh = select_faces(mesh_, faces);
     }
 
-    // --- cut at the outline
+    // --- cutting at the outline
 
     void cut() {
         std::vector<std::uint8_t> near(mesh_.vertex_count());
@@ -248,7 +248,7 @@ class Cropper {
     const CropSettings& settings_;
     CropView view_;
     std::vector<PointLocation> places_; ///< [vertices]
-    std::vector<OutlineMeeting> meets_; ///< [faces] with any segment
+    std::vector<OutlineMeeting> meets_; ///< [faces] how the face meets the outline
     CropResult result_;
 };
 
@@ -271,7 +271,8 @@ std::vector<CropResult> crop_sides(const Mesh& mesh, const Footprint& footprint,
     };
     try {
         return run();
-    } catch (const UnclosedWalls&) { // needles of an outline may be finer than snap; pure, they can be closed
+    } catch (const UnclosedWalls&) { // an outline may have needles finer than snap; without snap, they can be
+                                     // closed
         if (!settings.snap) throw;
     }
     settings.snap = false;

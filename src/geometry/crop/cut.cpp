@@ -40,11 +40,11 @@ std::vector<std::vector<Index>> faces_by_segment(const Mesh& mesh, const CropVie
 
 /// Faces that successive cuts may reach, as a separate mesh in the same order.
 struct CutRegion {
-    std::vector<Index> faces, vertices, wedges; ///< of the whole mesh; wedges: empty without seams
+    std::vector<Index> faces, vertices, wedges; ///< elements of the whole mesh; wedges: empty without seams
     EnteredFaces entered;
     Mesh mesh;
     CutFaces cut;
-    std::vector<Index> new_vertices, new_wedges; ///< [new ones] numbers in the whole mesh
+    std::vector<Index> new_vertices, new_wedges; ///< [new elements] numbers in the whole mesh
 };
 
 /// Entered faces and their neighbours, in regions without common vertices, so that cuts in different regions
@@ -70,7 +70,7 @@ class CutRegions {
             regions.size(), [&](std::size_t r) { make_mesh(regions[r], vertex_place, wedge_place); }, 1);
         return regions;
     }
-    /// [faces] the region; none for faces in no region.
+    /// [faces] The region of each face, or none.
     const std::vector<Index>& region_of() const { return region_of_; }
 
   private:
@@ -98,7 +98,7 @@ class CutRegions {
     }
     std::size_t number_regions() {
         std::size_t count = 0;
-        std::vector<Index> number(mesh_.vertex_count(), none); // by set
+        std::vector<Index> number(mesh_.vertex_count(), none); // [sets] region numbers
         for (Index f = 0; f < region_of_.size(); ++f) {
             if (region_of_[f] == none) continue;
             Index& n = number[sets_.find(mesh_.vertex(mesh_.face_begin(f)))];
@@ -138,7 +138,7 @@ class CutRegions {
 
     const Mesh& mesh_;
     std::vector<Index> region_of_;
-    DisjointSets sets_; ///< of vertices
+    DisjointSets sets_; ///< sets of vertices
 };
 
 /// A new vertex or wedge of a region.
@@ -245,7 +245,7 @@ class OutlineCutter {
         MeshProvenance provenance;
         out.face_offsets.push_back(0);
         std::vector<std::size_t> next(regions_.size()),
-            face(regions_.size()); // piece, and face of the region
+            face(regions_.size()); // the piece, and the region's face
         const auto add = [&](Index f) {
             out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
             provenance.faces.push_back(f);
@@ -291,7 +291,7 @@ class OutlineCutter {
 
     void remember_points() {
         const auto known = static_cast<Index>(memory_.entries.size());
-        std::vector<std::vector<Vec3>> made(segments_.sharing.size()); // by plane
+        std::vector<std::vector<Vec3>> made(segments_.sharing.size()); // [planes] new points
         std::vector<std::uint8_t> met(made.size());
         for (const CutRegion& region : regions_) {
             for (const Index plane : region.cut.met) met[plane] = 1;
@@ -336,11 +336,12 @@ class OutlineCutter {
     const CropView& view_;
     CutMemory& memory_;
     SegmentPlanes segments_;
-    std::vector<std::vector<std::uint32_t>> known_; ///< [vertices] entries of the memory; may be empty
+    std::vector<std::vector<std::uint32_t>>
+        known_; ///< [vertices] entries of the memory; may be an empty list
     std::vector<CutRegion> regions_;
-    std::vector<Provenance::Edge> vertices_, wedges_; ///< the new ones
+    std::vector<Provenance::Edge> vertices_, wedges_; ///< the new vertices and wedges
     OutlineCut result_;
-    std::vector<Index> origin_; ///< [faces of the result] source
+    std::vector<Index> origin_; ///< [faces of the result] source face
 };
 
 } // namespace

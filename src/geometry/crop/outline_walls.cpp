@@ -107,7 +107,7 @@ Index Walls::nearest(const Vec2& p, const Vec2& q) const {
         double least = HUGE_VAL;
         footprint_.tree().query(around(middle, middle, margin), [&](Index wall) {
             double far = distance(wall, p, q);
-            if (far <= 3 * rounding_) far = 0; // nearly identical walls tie: the first wins
+            if (far <= 3 * rounding_) far = 0; // nearly identical walls tie, and the first one is chosen
             if (far < least) {
                 least = far;
                 best = wall;

@@ -9,11 +9,10 @@ namespace facetmill {
 /// The plane through a segment of an outline, parallel to the axis; its normal points to the segment's left.
 [[nodiscard]] Plane upright_plane(std::size_t axis, const Vec2& a, const Vec2& b);
 
-/// The outline as walls, and their common corners as posts. A post has the number of a wall that starts at
-/// it.
+/// The outline as walls, with posts at their common corners. A post is numbered by a wall that starts at it.
 class Walls {
   public:
-    /// A post on a wall, and its position along the wall.
+    /// The position of a post along a wall.
     struct Stand {
         double at;
         Index post;
@@ -24,7 +23,7 @@ class Walls {
 
     std::size_t size() const { return edges().size(); }
     const std::vector<polygon::RingTree::Edge>& edges() const { return footprint_.tree().edges(); }
-    /// 0 to the length of the wall; outside this range beyond its ends.
+    /// The position of a point along a wall: 0 to the wall's length, or outside this range beyond its ends.
     double along(Index wall, const Vec2& p) const;
     double length_of(Index wall) const { return lengths_[wall]; }
     /// The largest distance along two walls from their common corner at which a point is on both within
@@ -42,7 +41,7 @@ class Walls {
 
     /// The wall nearest to an edge projected from p to q. It compares the midpoint's distance from the wall.
     /// Because the edge may extend past the wall, it also compares the distance of its ends from the wall's
-    /// line. Rounding is ignored; ties go to the lowest.
+    /// line. Rounding is ignored. Among equal walls, the lowest is chosen.
     Index nearest(const Vec2& p, const Vec2& q) const;
     /// True if the edge is on the wall within rounding.
     bool is_on(Index wall, const Vec2& p, const Vec2& q) const;
@@ -56,7 +55,8 @@ class Walls {
     const Footprint& footprint_;
     double rounding_;
     std::vector<double> lengths_;
-    std::vector<Index> post_; ///< [walls] at the start of each; walls at the same position share it
+    std::vector<Index> post_; ///< [walls] the post at the start of each wall; walls that start at the same
+                              ///< position share a post
     std::vector<std::vector<Stand>> stands_;
 };
 

@@ -78,8 +78,8 @@ void PieceTree::widen(Index node, const Bounds& box) {
     }
 }
 
-/// The lowest unbalanced node above a leaf that is too deep: one side has more than two thirds of the leaves.
-/// none if there is none.
+/// The lowest unbalanced node above a leaf that is too deep, or none. In an unbalanced node, one side has
+/// more than two thirds of the leaves.
 Index PieceTree::unbalanced_above(Index leaf) const {
     std::size_t depth = 0;
     Index root = leaf;

@@ -12,14 +12,14 @@ class PieceTree {
     using Bounds = polygon::RingTree::Bounds;
     struct Piece {
         Index face = none;
-        std::vector<Index> wedges; ///< in order
+        std::vector<Index> wedges; ///< corners in order
         Index node = none;         ///< none: the piece no longer exists
     };
 
     /// Adds a face as a single piece; faces are numbered in order of insertion.
     void add_face(std::vector<Index> wedges, const Bounds& box);
-    /// Replaces a piece by parts, which are moved from. The first part with the most wedges keeps its number;
-    /// the others get new numbers.
+    /// Replaces a piece by parts, and moves from the parts. The first part with the most wedges keeps its
+    /// number; the others get new numbers.
     void replace(Index piece, std::span<std::vector<Index>> parts, std::span<const Bounds> boxes);
     /// Changes the wedges of a piece, for points on its edges.
     void reshape(Index piece, std::vector<Index> wedges, const Bounds& box);
@@ -43,8 +43,8 @@ class PieceTree {
   private:
     struct Node {
         Bounds box;
-        Index parent = none, first = none, second = none; ///< nodes
-        Index piece = none;                               ///< if it is a leaf
+        Index parent = none, first = none, second = none; ///< tree nodes
+        Index piece = none;                               ///< the piece of a leaf
         Index leaves = 1;
     };
 
@@ -71,9 +71,9 @@ class PieceTree {
 
     std::vector<Piece> pieces_;
     std::vector<Node> nodes_;
-    std::vector<Index> roots_;  ///< [faces]
-    std::vector<Index> free_;   ///< nodes
-    std::vector<Index> leaves_; ///< of the replaced piece
+    std::vector<Index> roots_;  ///< [faces] root nodes
+    std::vector<Index> free_;   ///< unused nodes
+    std::vector<Index> leaves_; ///< leaves of the replaced piece
     mutable std::vector<Index> open_;
 };
 

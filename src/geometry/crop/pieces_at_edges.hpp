@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// The pieces that were added for each edge. It does not know whether they still exist.
+/// The pieces that were added for each edge. Some may have been replaced since.
 class PiecesAtEdges {
   public:
     PiecesAtEdges() : last_(64, none) {}
@@ -46,7 +46,7 @@ class PiecesAtEdges {
         }
     }
 
-    std::vector<Index> last_; ///< [a power of two] by hash, into items_
+    std::vector<Index> last_; ///< [a power of two] the last item of each hash, as an index into items_
     std::vector<Item> items_;
 };
 

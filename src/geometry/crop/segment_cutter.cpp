@@ -22,9 +22,9 @@ double rounding_of(std::initializer_list<double> sizes) {
 struct PieceShape {
     double square = -1; ///< squared distance of the farthest corner; negative: unknown
     double way = 1;     ///< 1 for an anticlockwise piece, else -1
-    Index parting = 0;  ///< edge, modulo their number, that last separated it from a segment
+    Index parting = 0; ///< the edge that last separated the piece from a segment (modulo the number of edges)
     double low = 0,
-           high = -1; ///< extent behind and in front of that edge, times its length; high < 0: unknown
+           high = -1; ///< extent behind and in front of this edge, times the edge's length; high < 0: unknown
 };
 
 /// A frame in which the pieces of a face have narrow boxes. Its first axis follows the longest segment that
@@ -70,13 +70,13 @@ class SegmentCutter {
     using Bounds = PieceTree::Bounds;
 
     Index vertex_of(Index wedge) const { return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge]; }
-    /// In the frame of the face.
+    /// The bounds of a piece in the frame of the face.
     Bounds bounds(Index face, std::span<const Index> wedges) const {
         Bounds box;
         for (const Index w : wedges) box.add(frames_[face](seen_[vertex_of(w)]));
         return box;
     }
-    /// The same, enlarged by the rounding of points.
+    /// The bounds of an edge in the frame of the face, enlarged by the rounding of points.
     Bounds bounds(Index face, const polygon::RingTree::Edge& e) const {
         Bounds box;
         for (const Vec2& p : {e.a, e.b}) box.add(frames_[face](p));
@@ -174,14 +174,14 @@ class SegmentCutter {
                 touched_.push_back(piece);
             });
     }
-    /// Fills face_.
+    /// Fills face_ with the corners of a piece.
     void gather(Index piece) {
         face_.clear();
         for (const Index w : pieces_[piece].wedges) face_.push_back(seen_[vertex_of(w)]);
     }
 
     /// True if the line along an edge separates a piece from a segment, within the rounding of points. This
-    /// is usual after the last cut for the next segment, which may seem to enter because of rounded corners.
+    /// is usual after a cut: because of rounded corners, the next segment may seem to enter the piece.
     /// Pieces entirely on that line, such as edge-on faces, are not separated. The edge that separated the
     /// piece from the previous segment is tested first.
     bool is_parted(Index piece, const polygon::RingTree::Edge& e) {
@@ -229,8 +229,8 @@ class SegmentCutter {
         if (piece < shapes_.size()) shapes_[piece].square = shapes_[piece].high = -1;
     }
 
-    /// Adds the neighbours at cut edges to the touched pieces: faces around that are still whole, and pieces
-    /// of earlier cuts.
+    /// Adds the neighbours at cut edges to the touched pieces. These are whole faces, and pieces of earlier
+    /// cuts.
     void find_neighbours(Index s, Index piece) {
         look_around(pieces_[piece].face);
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
@@ -255,7 +255,8 @@ class SegmentCutter {
                     if (std::find(around_.begin(), around_.end(), corner_face_[other]) == around_.end())
                         around_.push_back(corner_face_[other]);
     }
-    /// Records the edges of a piece; with first_new, only edges with an end from that vertex on.
+    /// Records the edges of a piece. With first_new, records only edges with an end that is this vertex or
+    /// later.
     void note_edges(Index piece, Index first_new = 0) {
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             const Index u = vertex_of(a), v = vertex_of(b);
@@ -274,7 +275,7 @@ class SegmentCutter {
         }
     }
 
-    // --- a cut that divides each piece in two, between vertices: nearly all cuts
+    // --- the usual cut, which passes between vertices and divides each piece in two
 
     /// A cut edge by its vertices or wedges; the end at the lower vertex comes first.
     struct Ends {
@@ -311,7 +312,7 @@ class SegmentCutter {
                                                     [&](Index w) { return sign_at(s, vertex_of(w)) == 0; });
             });
     }
-    /// Like cut, for such a cut.
+    /// Like `cut`, for a cut between vertices that divides each piece in two.
     void cut_plain(Index s, std::size_t to_cut) {
         const auto first_vertex = static_cast<Index>(points_.size()),
                    first_made = static_cast<Index>(wedge_count());
@@ -365,7 +366,7 @@ class SegmentCutter {
         return first_made + (wedge_vertex_.empty() ? number_of(cut_edges_, ends_of(a, b))
                                                    : number_of(cut_wedges_, ends_of(a, b)));
     }
-    /// Each part begins and ends with a point of the cut.
+    /// Divides a piece in two. Each part begins and ends with a point of the cut.
     void halve(Index s, Index piece, Index first_made) {
         const auto& wedges = pieces_[piece].wedges;
         const std::size_t n = wedges.size();
@@ -397,7 +398,7 @@ class SegmentCutter {
     }
     std::vector<Index> with_points(Index s, Index piece, Index first_made) {
         std::vector<Index> wedges;
-        wedges.reserve(pieces_[piece].wedges.size() + 1); // usually one more point
+        wedges.reserve(pieces_[piece].wedges.size() + 1); // usually one point is added
         for_polygon_edges(pieces_[piece].wedges, [&](Index a, Index b) {
             wedges.push_back(a);
             if (sign_at(s, vertex_of(a)) * sign_at(s, vertex_of(b)) < 0 &&
@@ -415,7 +416,7 @@ class SegmentCutter {
 
     // --- any other cut
 
-    /// Cuts the first to_cut touched pieces; the others get the points on their edges.
+    /// Cuts the first to_cut touched pieces. The others get the new points on their edges.
     void cut(Index s, std::size_t to_cut) {
         make_local();
         std::vector<std::int8_t> signs;
@@ -456,7 +457,7 @@ class SegmentCutter {
         }
         remember_corners(s, first_vertex);
     }
-    /// Builds a mesh of the touched pieces; vertices and wedges keep their order.
+    /// Builds a mesh of the touched pieces. Vertices and wedges keep their order.
     void make_local() {
         const auto numbered = [&](std::vector<Index>& all) {
             std::sort(all.begin(), all.end());
@@ -550,24 +551,24 @@ class SegmentCutter {
     double size_ = 0;                   ///< distance of the farthest projected vertex
     std::vector<Frame> frames_;         ///< [faces]
     PieceTree pieces_;                  ///< boxes in the frames
-    PiecesAtEdges at_edges_;            ///< without untouched faces
-    std::vector<Vec3> points_;          ///< [vertices] old and new
+    PiecesAtEdges at_edges_;            ///< does not contain untouched faces
+    std::vector<Vec3> points_;          ///< [vertices] old and new positions
     std::vector<Index> wedge_vertex_;   ///< [wedges] empty without seams
-    std::vector<Vec2> seen_;            ///< [vertices]
+    std::vector<Vec2> seen_;            ///< [vertices] projected positions
     std::vector<std::int8_t> signs_;    ///< [vertices] sign relative to signed_for_
     std::vector<double> sides_;         ///< [vertices] value of side() for signed_for_
-    std::vector<Index> signed_for_;     ///< [vertices] the segment
-    std::vector<std::uint8_t> was_cut_; ///< [faces]
-    std::vector<PieceShape> shapes_;    ///< [pieces, filled on demand]
-    std::vector<Index> touched_for_;    ///< [pieces, filled on demand] the last segment that touched it
+    std::vector<Index> signed_for_;     ///< [vertices] segment for which signs_ and sides_ are valid
+    std::vector<std::uint8_t> was_cut_; ///< [faces] 1 for cut faces
+    std::vector<PieceShape> shapes_;    ///< [pieces] cached shapes, filled on demand
+    std::vector<Index> touched_for_; ///< [pieces] the last segment that touched the piece, filled on demand
     CutFaces made_;
     // State of the current cut:
-    std::vector<Index> touched_; ///< pieces: those to cut, then pieces that share a cut edge
+    std::vector<Index> touched_; ///< first pieces to cut, then pieces that share a cut edge
     Mesh part_;
     std::vector<Index> vertices_, wedges_; ///< [vertices and wedges of part_] wedges: empty without seams
-    std::vector<Index> local_;             ///< inverse of these
+    std::vector<Index> local_;             ///< inverse of vertices_ and wedges_
     std::vector<Ends> cut_edges_,
-        cut_wedges_; ///< ascending; edges: their vertices; wedges: empty without seams
+        cut_wedges_; ///< ascending; an edge is its vertices; wedges: empty without seams
     std::vector<Index> around_, shared_;
     std::vector<Vec2> face_;
 };

@@ -10,7 +10,7 @@ namespace facetmill {
 struct EnteredFaces {
     std::vector<Index> segments;   ///< segments that enter faces, ascending
     std::vector<Index> offsets{0}; ///< [segments + 1] into faces
-    std::vector<Index> faces;      ///< of each, ascending
+    std::vector<Index> faces;      ///< the faces of each segment, ascending
 
     std::span<const Index> of(std::size_t i) const {
         return {faces.data() + offsets[i], faces.data() + offsets[i + 1]};
@@ -29,18 +29,21 @@ struct EnteredFaces {
 /// The result of the cuts. New vertices and wedges follow the mesh's own. They are numbered by the segments
 /// that made them, then by their edges (low vertex first).
 struct CutFaces {
-    Pieces pieces;                                      ///< of all faces, in order
-    std::vector<Vec3> points;                           ///< [new vertices]
-    std::vector<Provenance::Edge> vertices, wedges;     ///< new ones; without seams wedges is empty
-    std::vector<Index> wedge_vertex;                    ///< [new wedges]
-    std::vector<Index> vertex_segments, wedge_segments; ///< [new ones]
-    std::vector<std::pair<Index, Index>> on; ///< a new vertex, ascending, and a plane that contains it
-    std::vector<Index> met;                  ///< planes whose segments entered a piece
+    Pieces pieces;            ///< pieces of all faces, in order
+    std::vector<Vec3> points; ///< [new vertices] positions
+    std::vector<Provenance::Edge> vertices,
+        wedges;                      ///< edges of new vertices and wedges; wedges is empty without seams
+    std::vector<Index> wedge_vertex; ///< [new wedges] vertices
+    std::vector<Index> vertex_segments,
+        wedge_segments; ///< [new vertices, new wedges] the segment that made each
+    std::vector<std::pair<Index, Index>>
+        on;                 ///< pairs of a new vertex (ascending) and a plane that contains it
+    std::vector<Index> met; ///< planes whose segments entered a piece
     std::size_t cut_faces = 0;
 };
 
-/// Each segment cuts every face that it enters by more than rounding, along its line across the whole piece;
-/// neighbours get the points. on: the known planes of the vertices.
+/// Each segment cuts every face that it enters by more than rounding, along its line across the whole piece.
+/// Neighbours get the new points. on: the known planes of the vertices.
 [[nodiscard]] CutFaces cut_along_segments(const Mesh& mesh, const EnteredFaces& entered, const CropView& view,
                                           const SegmentPlanes& segments, OnPlanes on);
 

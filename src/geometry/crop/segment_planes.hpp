@@ -7,15 +7,15 @@ namespace facetmill {
 
 /// The planes of the outline's segments, numbered after the planes of a memory. Equal planes share a number.
 struct SegmentPlanes {
-    std::vector<Plane> planes;  ///< [segments]
-    std::vector<Index> numbers; ///< [segments]
-    std::vector<Index> first;   ///< [numbers, beyond the memory's] the first segment with the plane
-    std::vector<Index> sharing; ///< [numbers] count of segments and entries of the memory
+    std::vector<Plane> planes;  ///< [segments] planes
+    std::vector<Index> numbers; ///< [segments] numbers of the planes
+    std::vector<Index> first;   ///< [numbers after the memory's] the first segment with this plane
+    std::vector<Index> sharing; ///< [numbers] how many segments and memory entries have this plane
 
     SegmentPlanes(const CropView& view, const CutMemory& memory);
 };
 
-/// The planes on which each vertex counts.
+/// The planes that each vertex counts as on.
 class OnPlanes {
   public:
     void grow(std::size_t vertices) { last_.resize(vertices, none); }
@@ -38,7 +38,7 @@ class OnPlanes {
     struct Item {
         Index plane, next;
     };
-    std::vector<Index> last_; ///< [vertices] into list_
+    std::vector<Index> last_; ///< [vertices] the last entry, an index into list_
     std::vector<Item> list_;
 };
 

@@ -18,8 +18,8 @@ void untrace(Mesh& mesh, std::string_view attribute = trace_attribute);
 /// The listed faces in that order, with the vertices, wedges and attributes that they use.
 [[nodiscard]] Mesh select_faces(const Mesh& mesh, std::span<const Index> faces);
 
-/// Joins both meshes, b's faces after a's. Merges vertices with the same number and position, and wedges with
-/// the same number at such vertices. Both must be traced; the result still is.
+/// Joins both meshes, b's faces after a's. Merges vertices with the same number and position, and wedges
+/// with the same number at such vertices. Both must be traced, and the result is traced too.
 [[nodiscard]] Mesh join_traced(Mesh a, const Mesh& b, std::string_view attribute = trace_attribute);
 
 } // namespace facetmill

@@ -22,7 +22,7 @@ Inside::Inside(const Footprint& footprint, InsideBy by)
 }
 
 PointLocation Inside::operator()(const Vec2& p) const {
-    const PointLocation place = footprint_.locate(p); // on the outline, every rule would depend on rounding
+    const PointLocation place = footprint_.locate(p); // all rules would depend on rounding on the outline
     if (by_ == InsideBy::crossings || place > PointLocation::inside) return place;
     if (by_ == InsideBy::half_planes) return polygon::locate_convex(p, spans_[0]);
     const bool inside = by_ == InsideBy::angles ? polygon::inside_by_angles(p, spans_)
@@ -44,7 +44,8 @@ PointLocation CropView::middle(const Mesh& mesh, Index f, bool convex) const {
         const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
         double most = -1;
         for (const auto& abc : t.triangles) {
-            if (*std::max_element(abc.begin(), abc.end()) >= face.size()) continue; // rounded crossings
+            if (*std::max_element(abc.begin(), abc.end()) >= face.size())
+                continue; // the crossings are only rounded
             const double area = cross(face[abc[1]] - face[abc[0]], face[abc[2]] - face[abc[0]]);
             if (area > most) {
                 most = area;
@@ -99,7 +100,7 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
         if (rounded) widest = snap;
     }
     return on(mean,
-              widest); // all corners may be on the outline, but not the mean
+              widest); // all corners may be on the outline although the mean is not
 }
 
 PointLocation CropView::settle(PointLocation place, const Mesh& mesh, Index f) const {
@@ -109,7 +110,7 @@ PointLocation CropView::settle(PointLocation place, const Mesh& mesh, Index f) c
         corners.push_back(settings_.to_world.point(mesh.positions[mesh.vertex_of_wedge(w)]));
     const Vec3 n = polygon::area_vector(corners);
     const Vec2 out = seen_along(settings_.axis, n), at = seen_along(settings_.axis, corners[0]);
-    // Of the segments that may contain the face, the one most parallel to it.
+    // Chooses the segment most parallel to the face, among segments that may contain it.
     double least = HUGE_VAL;
     bool inside = true;
     const double size = std::max({std::fabs(at.x), std::fabs(at.y), 1e-300});

@@ -8,7 +8,8 @@ namespace facetmill {
 /// Locates points by the requested rule.
 class Inside {
   public:
-    /// Throws usage (E-FOOTPRINT) when the rule needs a single convex ring and the footprint is not one.
+    /// Throws a usage error (E-FOOTPRINT) when the rule needs a single convex ring and the footprint is not
+    /// one.
     Inside(const Footprint& footprint, InsideBy by);
     polygon::PointLocation operator()(const Vec2& p) const;
 
@@ -31,7 +32,7 @@ class CropView {
     CropView(const Footprint& footprint, const CropSettings& settings)
         : footprint_(footprint), settings_(settings), inside_(footprint, settings.inside_by) {}
 
-    /// Points within this distance of the outline count as on it, with snap.
+    /// With snap, points within this distance of the outline count as on it.
     double snap = 0;
 
     const Footprint& footprint() const { return footprint_; }
@@ -44,9 +45,9 @@ class CropView {
 
     /// Projects the corners of a face.
     void gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const;
-    /// The location of a point in the middle of a face, in the largest triangle if the face is concave. An
-    /// edge-on face along the outline bounds the side that it faces away from. convex: the face is known to
-    /// be convex within rounding.
+    /// The location of a point in the middle of a face. In a concave face, the point is in the largest
+    /// triangle. An edge-on face along the outline bounds the side that it faces away from. convex: the face
+    /// is known to be convex within rounding.
     polygon::PointLocation middle(const Mesh& mesh, Index f, bool convex = false) const;
     /// Calls visit(segment, meeting) for the segments near a face until it returns false.
     template <class Visit>

@@ -73,8 +73,8 @@ bool WallPanel::complete(const PostView& view) {
     return check_upright();
 }
 
-/// A boundary that leaves the wall at a post returns at another height. The edges between carry the sum of
-/// the balances below.
+/// A boundary that leaves the wall at a post returns at another height. The upright edges between these
+/// heights carry the sum of the balances below them.
 void WallPanel::add_upright(const PostView& view, Index post) {
     int carried = 0;
     Index before = none;
@@ -122,7 +122,7 @@ void WallPanel::make_contours(const PostView& view) {
         Run& turned = ordered[{std::min(a, b), std::max(a, b)}] = run;
         if (b < a) turned.count = -run.count;
     }
-    for (const auto& [ends, run] : ordered) { // the wall traverses the boundary in the opposite direction
+    for (const auto& [ends, run] : ordered) { // the wall traverses the boundary backwards
         contours_.edges.push_back({ends.first, ends.second, -run.count});
         run_of_.push_back(run);
     }
@@ -150,7 +150,7 @@ double WallPanel::parameter(const Contours::Edge& e, Index point) const {
 }
 
 std::vector<WallPanel::OnEdge> WallPanel::on_edges() const {
-    constexpr double gap = 0x1p-40; // so that 1 - t keeps the order too
+    constexpr double gap = 0x1p-40; // keeps the order of 1 - t too
     std::vector<OnEdge> all;
     for (std::size_t e = 0; e < run_of_.size(); ++e) {
         if (run_of_[e].own == none) continue;

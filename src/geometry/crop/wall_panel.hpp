@@ -13,7 +13,7 @@ namespace facetmill {
 /// An edge of the kept faces' boundary.
 struct WallEdge {
     Index low, high; ///< vertices
-    Index edge;      ///< in the edge table
+    Index edge;      ///< index in the edge table
     int count;       ///< faces from low to high minus faces in the other direction; never 0
     Index wall;      ///< the nearest segment of the outline
 };
@@ -21,10 +21,10 @@ struct WallEdge {
 /// The projected vertices of a mesh, and the vertices at posts of the outline.
 struct PostView {
     const Walls& walls;
-    std::vector<Vec2> seen;         ///< [vertices]
-    std::vector<double> heights;    ///< [vertices] along the axis
+    std::vector<Vec2> seen;         ///< [vertices] projected positions
+    std::vector<double> heights;    ///< [vertices] coordinates along the axis
     std::map<Index, Index> post_of; ///< the only post at which a vertex may leave or join walls
-    /// The vertices that upright edges pass through: at the post, and others between them.
+    /// The vertices that upright edges pass through: vertices at the post, and vertices between them.
     std::map<Index, std::set<Index>> at_post;
 
     /// Assigns a vertex to a post, unless it already has a nearer one.
@@ -40,7 +40,7 @@ class WallPanel {
     WallPanel(Index wall, std::span<const WallEdge> edges);
 
     Index wall() const { return wall_; }
-    /// Vertices with different numbers of arriving and leaving edges: leaving minus arriving.
+    /// The number of leaving minus arriving edges, for vertices where these differ.
     const std::map<Index, int>& balance() const { return balance_; }
 
     /// Adds the vertices that the view needs at the posts of this wall.
@@ -48,7 +48,7 @@ class WallPanel {
     /// Closes the boundary with upright edges at the posts and fills it. Returns false when a post's vertices
     /// do not balance, or the filling needs new points on an upright edge.
     bool complete(const PostView& view);
-    /// Vertices on upright edges, with the post; complete uses them if they are in at_post.
+    /// Vertices found on upright edges, with the post. `complete` uses them if they are in at_post.
     const std::vector<std::pair<Index, Index>>& missed() const { return missed_; }
     /// The net count of traversals of each upright edge: upward from its lower vertex adds, downward
     /// subtracts.
@@ -57,13 +57,13 @@ class WallPanel {
     /// A point on an edge of the boundary.
     struct OnEdge {
         Index edge;  ///< index of the given boundary edge
-        Index from;  ///< its end where t is 0; chosen by position
-        double t;    ///< above 0 and below 1
+        Index from;  ///< its end with t = 0, chosen by position
+        double t;    ///< position along the edge: above 0 and below 1
         Index point; ///< a vertex if below points().size(), else an added point
     };
     const Filling& filling() const { return filling_; }
     const std::vector<Index>& points() const { return points_; } ///< vertices of the filling
-    /// By edge, then along the edge.
+    /// The added points on boundary edges, sorted by edge, then along the edge.
     std::vector<OnEdge> on_edges() const;
 
   private:
@@ -77,7 +77,7 @@ class WallPanel {
     struct Run {
         int count = 0;
         Index own = none;  ///< the boundary edge
-        Index post = none; ///< if it is an upright edge
+        Index post = none; ///< the post of an upright edge
     };
 
     Index wall_;
@@ -85,7 +85,7 @@ class WallPanel {
     std::map<Index, int> balance_;
     std::map<std::pair<Index, Index>, int> upright_;
     std::map<std::pair<Index, Index>, Run> runs_;
-    std::vector<Run> run_of_; ///< [edges of the contours]
+    std::vector<Run> run_of_; ///< [edges of the contours] their runs
     std::vector<std::pair<Index, Index>> missed_;
     std::vector<Index> points_;
     Contours contours_;

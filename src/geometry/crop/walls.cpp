@@ -19,10 +19,10 @@ namespace {
 // The faces of a crop's walls, and their attributes.
 
 struct WallFaces {
-    std::span<const WallPanel> panels; ///< filled; their points are vertices of the mesh
+    std::span<const WallPanel> panels; ///< the filled panels; their points are vertices of the mesh
     const Walls& walls;
     const WallSettings& settings;
-    Index first_added = 0; ///< first vertex that the panels added
+    Index first_added = 0; ///< the first vertex that the panels added
 };
 
 class Appender {
@@ -107,9 +107,9 @@ class Appender {
     Index added_; ///< the vertex of the next panel's first added point
     Mesh out_;
     MeshProvenance provenance_;
-    std::vector<Index> lowest_; ///< [vertices] wedge
+    std::vector<Index> lowest_; ///< [panels] face ranges
     std::map<Index, Index> wedge_at_;
-    std::vector<FaceRange> ranges_;              ///< [panels]
+    std::vector<FaceRange> ranges_;              ///< [panels] wedges of their own
     std::vector<std::vector<Index>> own_wedges_; ///< [panels]
 };
 
@@ -146,7 +146,7 @@ class WallsAtVertices {
     }
 
   private:
-    std::vector<std::size_t> begins_; ///< [vertices + 1]
+    std::vector<std::size_t> begins_; ///< [vertices + 1] offsets
     std::vector<Index> walls_;
 };
 
@@ -204,8 +204,8 @@ class Closer {
                          [](const WallEdge& a, const WallEdge& b) { return a.wall < b.wall; });
     }
 
-    /// Inserts vertices into edges that pass a corner of the outline. Where the outline is straight or almost
-    /// straight, faces were cut only once. Returns true if any were inserted.
+    /// Inserts vertices into edges that pass a corner of the outline. If the outline is straight or almost
+    /// straight at the corner, faces were cut only once. Returns true if any were inserted.
     bool split_at_posts() {
         std::vector<Insertion> insertions;
         std::vector<Provenance::Edge> added;
@@ -229,9 +229,9 @@ class Closer {
         insert_all(std::move(insertions), added);
         return true;
     }
-    /// True if a vertex counts as the corner, because the boundary passes to the wall's neighbour there. It
-    /// is past the corner by no more than rounding. Another point at the corner would create a sliver, and
-    /// the wall might use the sliver's wrong side.
+    /// True if a vertex counts as the corner. The boundary passes to the wall's neighbour at this vertex,
+    /// and the vertex is past the corner by no more than rounding. Another point at the corner would create
+    /// a sliver, and the wall might use the wrong side of it.
     bool is_corner(const WallsAtVertices& around, Index wall, const Walls::Stand& stand, Index vertex,
                    double at) const {
         const auto& e = walls_.edges()[wall];
@@ -276,8 +276,9 @@ class Closer {
         std::erase_if(edges_, [&](const WallEdge& e) { return open.contains(contours.find(e.low)); });
     }
     void find_open(DisjointSets& contours, std::set<Index>& open) const {
-        std::map<Index, int> balance;                                            // by vertex
-        std::map<std::pair<Index, Index>, std::pair<int, std::set<Index>>> post; // by wall and post
+        std::map<Index, int> balance; // [vertices] balance
+        std::map<std::pair<Index, Index>, std::pair<int, std::set<Index>>>
+            post; // by wall and post: the balance and its vertices
         for (const WallEdge& e : edges_) {
             if (open.contains(contours.find(e.low))) continue;
             balance[e.low] += e.count;
@@ -339,7 +340,7 @@ class Closer {
         first_added_ = static_cast<Index>(mesh_.vertex_count());
         std::vector<Insertion> insertions;
         std::vector<Provenance::Edge> added;
-        std::size_t edge = 0; // of the panel's first
+        std::size_t edge = 0; // the first edge of the panel
         for (const WallPanel& panel : panels_) {
             const auto points = static_cast<Index>(panel.points().size());
             const std::size_t first = added.size();
@@ -373,7 +374,7 @@ class Closer {
     Walls walls_;
     PostView view_;
     EdgeTable table_;
-    std::vector<WallEdge> edges_; ///< by wall
+    std::vector<WallEdge> edges_; ///< sorted by wall
     std::vector<WallPanel> panels_;
     Index first_added_ = 0;
     WalledCrop result_;

@@ -3,7 +3,17 @@
 
 #include "mesh/provenance.hpp"
 
+#include <cmath>
+
 namespace facetmill {
+
+/// Whether elements i and j have the same value; NaN equals NaN.
+[[nodiscard]] inline bool is_same_value(const Attribute& a, Index i, Index j) {
+    for (int k = 0; k < a.components; ++k)
+        if (const double x = a.value(i, k), y = a.value(j, k); !(x == y || (std::isnan(x) && std::isnan(y))))
+            return false;
+    return true;
+}
 
 /// A mesh with the vertices and wedges of another, to which faces are added one at a time: append their
 /// wedges to mesh.corners, then call end_face. Vertices and wedges may be appended too.

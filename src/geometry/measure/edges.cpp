@@ -1,4 +1,4 @@
-// Edges, corners and curvature of geometry/measure/measure.hpp.
+// Implements edges, corners and curvature of geometry/measure/measure.hpp.
 #include "base/math/portable_math.hpp"
 #include "geometry/measure/pieces.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -32,7 +32,8 @@ std::vector<Vec3> area_vectors(const Mesh& mesh) {
 
 double angle_between(const Vec3& a, const Vec3& b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
 
-/// How the surface turns at an edge with two faces that run along it in opposite directions; nan at others.
+/// How the surface turns at an edge. NaN unless the edge has two faces that run along it in opposite
+/// directions.
 struct EdgeTurns {
     EdgeTable edges;
     std::vector<double> turn;
@@ -60,7 +61,7 @@ double length_of(const Mesh& mesh, const EdgeTable::Edge& e) {
     return length(mesh.positions[e.high] - mesh.positions[e.low]);
 }
 
-/// The inner angle of a face at a corner; normal decides which side is inside.
+/// The inner angle of a face at a corner. The normal decides which side is inside.
 double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec3& normal) {
     const Vec3 a = after - at, b = before - at;
     if (!(dot(a, a) > 0) || !(dot(b, b) > 0)) return none_there;
@@ -68,7 +69,7 @@ double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec
     return dot(cross(a, b), normal) < 0 ? 2 * pi - angle : angle;
 }
 
-/// Whether an edge counts where the vertices have these turns.
+/// Whether an edge counts if the vertices have these turns.
 bool counts(const EdgeTable::Edge& e, std::span<const Turn> turns) {
     if (turns.empty()) return true;
     const Turn a = turns[e.low], b = turns[e.high];
@@ -110,8 +111,8 @@ EdgeValues values_of_edges(const Mesh& mesh, EdgeTurns t, const EdgeSettings& se
     return values;
 }
 
-/// mesh: of triangles; vertices up to `vertices` are in the input, later ones are where faces cross
-/// themselves.
+/// mesh: must consist of triangles. Its first `vertices` vertices are in the input. At the others, faces
+/// cross themselves.
 CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& areas, const EdgeTurns& t,
                                     std::size_t vertices, std::span<const Turn> turns_of_vertices);
 
@@ -158,7 +159,7 @@ CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& a
     for (std::size_t e = 0; e < t.edges.size(); ++e) {
         const auto [low, high] = t.edges.edges[e];
         const std::size_t faces = t.edges.corners_of(static_cast<Index>(e)).size();
-        // 1: a boundary; 2: no manifold, or a face without a normal.
+        // 1: on a boundary. 2: not manifold, or at a face without a normal.
         if (faces == 1) {
             open[low] |= 1;
             open[high] |= 1;
@@ -203,7 +204,7 @@ CurvatureValues values_of_curvature(const Mesh& mesh, const std::vector<Vec3>& a
     return r;
 }
 
-/// Scales statistics from scaled coordinates back; the values are lengths to that power.
+/// Converts statistics from scaled coordinates back. The values are lengths to this power.
 void unscale(Statistics& s, int power) {
     for (double* x : {&s.minimum, &s.maximum, &s.mean, &s.deviation, &s.median, &s.sum})
         *x = unscaled(*x, power);

@@ -43,7 +43,7 @@ void add_square(Symmetric& s, const Vec3& v, double weight) {
     s.zz += weight * v.z * v.z;
 }
 
-/// The tetrahedron from the origin over a triangle.
+/// Adds the tetrahedron from the origin to a triangle.
 void add_tetrahedron(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c) {
     const double volume = dot(a, cross(b, c));
     const Vec3 sum = a + b + c;
@@ -52,7 +52,8 @@ void add_tetrahedron(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c) {
     for (const Vec3& v : {a, b, c, sum}) add_square(sums.spread, v, volume);
 }
 
-/// A triangle of the shell. area: twice its own, negative where a polygon's fan runs back.
+/// Adds a triangle of the shell. area: twice the triangle's area, negative where the fan of a concave
+/// polygon turns back.
 void add_sheet(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c, double area) {
     const Vec3 sum = a + b + c;
     sums.shell += sum * area;
@@ -100,7 +101,7 @@ Symmetric operator*(const Symmetric& s, double x) {
     return {s.xx * x, s.xy * x, s.xz * x, s.yy * x, s.yz * x, s.zz * x};
 }
 
-/// Turns rows and columns p and q so that their common element vanishes.
+/// Rotates rows and columns p and q so that their common element becomes 0.
 void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
     if (m[p][q] == 0) return;
     const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
@@ -124,7 +125,7 @@ void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
     }
 }
 
-// Expects a mesh whose box is not far from 1 in size; the sums are relative to a point.
+// Requires a mesh whose box has a size near 1. The sums are relative to a point.
 
 ShellMass shell_of(const Sums& sums, const Vec3& from) {
     ShellMass shell;
@@ -149,9 +150,9 @@ SolidMass solid_of(const Sums& sums, const Vec3& from) {
     return solid;
 }
 
-// Conversions from scaled to given coordinates.
+// Conversions from scaled to original coordinates.
 
-/// measure: the power of the area or volume that the moments were summed over.
+/// measure: the power that scales the area or volume over which the moments were summed.
 Symmetric taken_back(const Symmetric& s, const PowerScale& scale, int measure) {
     const auto moment = [&](double x, std::size_t i, std::size_t j) {
         return unscaled(x, measure + scale.powers[i] + scale.powers[j]);
@@ -161,7 +162,7 @@ Symmetric taken_back(const Symmetric& s, const PowerScale& scale, int measure) {
 }
 
 ShellMass taken_back(const ShellMass& shell, const PowerScale& scale) {
-    const int area = 2 * scale.powers[0]; // every axis alike
+    const int area = 2 * scale.powers[0]; // all axes have the same scale
     return {unscaled(shell.area, area), scale.inverse()(shell.centroid),
             taken_back(shell.spread, scale, area)};
 }
@@ -211,7 +212,7 @@ ShellMass joined(const ShellMass& a, const ShellMass& b) {
     if (a.area == 0) return b;
     if (b.area == 0) return a;
     ShellMass sum{a.area + b.area, {}, a.spread};
-    const Vec3 apart = b.centroid - a.centroid; // from a, as below
+    const Vec3 apart = b.centroid - a.centroid; // relative to a, as below
     sum.centroid = a.centroid + apart * (b.area / sum.area);
     add(sum.spread, b.spread);
     add_square(sum.spread, apart, a.area * (b.area / sum.area));
@@ -223,7 +224,7 @@ SolidMass joined(const SolidMass& a, const SolidMass& b) {
     if (b.volume == 0) return a;
     SolidMass sum{a.volume + b.volume, {}, a.spread};
     if (sum.volume == 0) return {};
-    // From a, so that solids far from the origin lose nothing.
+    // Computed relative to a, so that solids far from the origin keep their precision.
     const Vec3 apart = b.centroid - a.centroid;
     sum.centroid = a.centroid + apart * (b.volume / sum.volume);
     add(sum.spread, b.spread);

@@ -13,16 +13,16 @@
 
 namespace facetmill {
 
-/// All zero for no numbers.
+/// All members are zero without numbers.
 struct Statistics {
     std::size_t count = 0;
     double minimum = 0, maximum = 0, mean = 0,
-           deviation = 0; ///< deviation: the standard deviation of all of them
-    double median = 0;    ///< of an even count the upper of the middle two
+           deviation = 0; ///< deviation: the population standard deviation
+    double median = 0;    ///< for an even count, the larger of the middle two
     double sum = 0;
 };
 
-/// Numbers that are not finite are left out. Parallel, and the same for any number of threads.
+/// Ignores numbers that are not finite. Parallel; the result does not depend on the number of threads.
 [[nodiscard]] Statistics statistics(std::vector<double> numbers);
 
 /// A symmetric 3 x 3 matrix.
@@ -34,29 +34,28 @@ struct Symmetric {
     }
 };
 
-/// Eigenvalues ascending, and their unit eigenvectors: a right-handed frame, the largest component of the
-/// first two not negative.
+/// Eigenvalues, ascending, and their unit eigenvectors. These form a right-handed frame; the largest
+/// components of the first two are not negative.
 struct Eigen3 {
     std::array<double, 3> values{};
     std::array<Vec3, 3> vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
-/// By rotations: C. G. J. Jacobi, "Ueber ein leichtes Verfahren, die in der Theorie der Saecularstoerungen
-/// vorkommenden Gleichungen numerisch aufzuloesen" (1846).
+/// Uses rotations after C. G. J. Jacobi, "Ueber ein leichtes Verfahren, die in der Theorie der
+/// Saecularstoerungen vorkommenden Gleichungen numerisch aufzuloesen" (1846).
 [[nodiscard]] Eigen3 eigen(const Symmetric& m);
 
-/// The inertia tensor of mass that is spread like that: the integral of |r|^2 I - r r^T.
+/// The inertia tensor of mass with this spread: the integral of |r|^2 I - r r^T.
 [[nodiscard]] Symmetric inertia_of(const Symmetric& spread);
 
 /// A surface without thickness.
 struct ShellMass {
     double area = 0;
-    Vec3 centroid; ///< of the area; the origin when there is none
+    Vec3 centroid; ///< the centroid of the area; the origin if the area is 0
     /// The integral of (p - centroid) (p - centroid)^T over the surface.
     Symmetric spread;
 };
 
-/// The inside of a closed surface, filled with density 1. All values are negative for a surface that is
-/// inside out.
+/// The inside of a closed surface, filled with density 1. All values are negative for an inside-out surface.
 struct SolidMass {
     double volume = 0;
     Vec3 centroid;
@@ -64,7 +63,7 @@ struct SolidMass {
     Symmetric spread;
 };
 
-/// Of several together.
+/// The shell mass of both together.
 [[nodiscard]] ShellMass joined(const ShellMass& a, const ShellMass& b);
 [[nodiscard]] SolidMass joined(const SolidMass& a, const SolidMass& b);
 
@@ -74,21 +73,21 @@ struct MassResult {
     /// a doubled surface: at most 1e-12 of the volume of a ball with the same area.
     std::optional<SolidMass> solid;
 };
-/// Sums over faces in parallel. The area of a face is the length of polygon::area_vector, its centroid and
-/// its volume those of the fan from its first corner, exact for planar faces, concave ones too. The area and
-/// the centroid of a planar face that crosses itself are those of what it winds around, each point counted
-/// once (covering_triangles); its volume is that of the fan, where it counts as often as it is wound around.
+/// Sums over faces in parallel. The area of a face is the length of polygon::area_vector. Its centroid and
+/// volume come from the fan of its first corner, which is exact for planar faces, even concave ones. If a
+/// planar face crosses itself, its area and centroid count each enclosed point once (covering_triangles).
+/// Its volume counts each point as often as the face winds around it.
 [[nodiscard]] MassResult measure_mass(const Mesh& mesh);
 
 /// Angles in radians.
 struct EdgeResult {
-    Statistics length; ///< of all edges
-    Statistics
-        turn; ///< of edges with two faces that agree: the angle between normals, negative where concave
+    Statistics length; ///< lengths of all edges
+    Statistics turn;   ///< for edges with two consistently oriented faces: the angle between the normals,
+                       ///< negative at concave edges
     std::size_t convex = 0, concave = 0,
-                flat = 0;                       ///< among them; flat: within the angle of EdgeSettings::flat
-    std::size_t feature = 0;                    ///< turn beyond EdgeSettings::feature_angle either way
-    std::size_t boundary = 0, non_manifold = 0; ///< edges with one face; with three or more
+                flat = 0;    ///< the number of such edges; flat: within EdgeSettings::flat
+    std::size_t feature = 0; ///< edges whose turn, in either direction, exceeds EdgeSettings::feature_angle
+    std::size_t boundary = 0, non_manifold = 0; ///< edges with one face, and with three or more
 };
 struct EdgeSettings {
     double feature_angle = 0.5235987755982988; ///< 30 degrees
@@ -96,54 +95,56 @@ struct EdgeSettings {
 };
 [[nodiscard]] EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
-/// One polygon in space, measured as P. Bourke, "Calculating the area and centroid of a polygon" (1988),
-/// measures polygons in the plane. Its frame is the frame of its plane (frame_of), with the normal's longest
-/// component positive. Thus a polygon in a plane z = constant has the axes x and y, and is seen from above. A
-/// planar polygon that crosses itself is measured as a section measures such a contour. Its area, centroid
-/// and moments count each point that it winds around once. The signed area has the sign of the larger part.
+/// A polygon in space, measured in its plane after P. Bourke, "Calculating the area and centroid of a
+/// polygon" (1988). Its frame is the frame of its plane (frame_of), with the normal's longest component
+/// positive. For example, a polygon in a plane z = constant has the axes x and y, seen from above. If a
+/// planar polygon crosses itself, its area, centroid and moments count each enclosed point once, as for
+/// contours of sections. The signed area has the sign of the larger part.
 struct PolygonResult {
     polygon::Kind kind = polygon::Kind::degenerate;
     bool planar = true;
-    double off_plane = 0;   ///< the largest distance of a corner from the plane
-    double area = 0;        ///< the length of polygon::area_vector; of one that crosses itself see above
-    double signed_area = 0; ///< positive when the corners run anticlockwise, seen in the frame, or as much
-                            ///< either way (to 1e-12 of the area)
-    Vec3 centroid;          ///< the first corner when there is no area
-    Vec3 normal; ///< unit, by the order of the corners; the frame's if both directions are equal; zero if
-                 ///< there is no area
+    double off_plane = 0; ///< the largest distance of a corner from the plane
+    double area =
+        0; ///< the length of polygon::area_vector, except for polygons that cross themselves (see above)
+    double signed_area = 0; ///< positive if the corners run anticlockwise in the frame, or equally in both
+                            ///< directions (to 1e-12 of the area)
+    Vec3 centroid;          ///< the first corner if the area is 0
+    Vec3 normal; ///< unit vector by the order of the corners; the frame's normal if both directions are
+                 ///< equal; zero if the area is 0
     SectionFrame frame;
-    /// Second moments of area in the frame, of the projection along the normal when the polygon is not
-    /// planar. None for a polygon that is degenerate, or crosses itself and is not planar.
+    /// Second moments of area in the frame. If the polygon is not planar, they belong to its projection
+    /// along the normal. None for a degenerate polygon, or if it crosses itself and is not planar.
     std::optional<polygon::Moments> moments;
 };
-/// At least three corners.
+/// Requires at least three corners.
 [[nodiscard]] PolygonResult measure_polygon(std::span<const Vec3> corners);
 
 /// Inner angles at the corners of faces, and areas.
 struct FaceResult {
-    Statistics area, angle;  ///< angle: 0 to 2 pi, beyond pi at concave corners
-    Statistics aspect_ratio; ///< of triangles with an area (mesh/aspect_ratio.hpp)
+    Statistics area, angle;  ///< angle: 0 to 2 pi, above pi at concave corners
+    Statistics aspect_ratio; ///< for triangles with an area above 0 (mesh/aspect_ratio.hpp)
     FaceKinds kinds;
     /// The sum of the area vectors: the signed areas of the projections along x, y and z. Zero for closed
     /// surfaces.
     Vec3 signed_area;
-    std::vector<double> areas; ///< per face
+    std::vector<double> areas; ///< [faces]
 };
 [[nodiscard]] FaceResult measure_faces(const Mesh& mesh);
 
 /// Discrete curvature at vertices, after M. Meyer et al., "Discrete differential-geometry operators for
-/// triangulated 2-manifolds" (2003). It is the angle defect, and the turn of the edges, over a third of the
-/// area of the triangles around. It is nan on a boundary and at non-manifold vertices.
+/// triangulated 2-manifolds" (2003). Gaussian curvature is the angle defect, and mean curvature the turn of
+/// the edges, divided by a third of the surrounding triangles' area. Both are NaN on a boundary and at
+/// non-manifold vertices.
 struct CurvatureResult {
-    std::vector<double> gaussian, mean; ///< per vertex; mean is positive where the surface bulges outward
+    std::vector<double> gaussian, mean; ///< [vertices] mean is positive where the surface bulges outward
     Statistics of_gaussian, of_mean;
-    /// The sum of angle defects over all vertices (on a boundary: relative to half a turn). It is 2 pi times
-    /// Euler's number of a manifold, whatever its shape.
+    /// The sum of angle defects over all vertices (on a boundary: relative to half a turn). For a manifold,
+    /// it is 2 pi times the Euler characteristic.
     double total = 0;
 };
 [[nodiscard]] CurvatureResult measure_curvature(const Mesh& mesh);
 
-/// Both, with one look at how the surface turns at the edges where all faces are triangles.
+/// Both results. If all faces are triangles, the turns at the edges are computed once.
 struct EdgesAndCurvature {
     EdgeResult edges;
     CurvatureResult curvature;

@@ -1,4 +1,4 @@
-// Single polygons of geometry/measure/measure.hpp.
+// Implements the measures of single polygons in geometry/measure/measure.hpp.
 #include "geometry/measure/measure.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 #include "mesh/power_scale.hpp"
@@ -9,7 +9,7 @@ namespace facetmill {
 
 namespace {
 
-/// The fan's signed parts, about the first corner: right for concave polygons too.
+/// Sums the signed triangles of the fan from the first corner, which is correct for concave polygons too.
 Vec3 centroid_of(std::span<const Vec3> p, const Vec3& normal, double area) {
     Vec3 moment;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
@@ -26,7 +26,8 @@ std::size_t longest_component(const Vec3& v) {
     return longest;
 }
 
-/// In the frame. The sums are taken from the first corner, so that polygons far from the origin lose nothing.
+/// The moments in the frame. The sums are relative to the first corner, so that polygons far from the origin
+/// keep their precision.
 std::optional<polygon::Moments> moments_in(const SectionFrame& frame, std::span<const Vec3> p,
                                            bool by_winding) {
     std::vector<Vec2> flat;
@@ -41,14 +42,14 @@ std::optional<polygon::Moments> moments_in(const SectionFrame& frame, std::span<
     return m;
 }
 
-/// The area and the centroid of a polygon that crosses itself, from its moments.
+/// Takes the area and the centroid of a polygon that crosses itself from its moments.
 void take_covered(PolygonResult& r) {
-    if (r.area <= 1e-12 * r.moments->area) r.normal = r.frame.normal; // the rest is rounding
+    if (r.area <= 1e-12 * r.moments->area) r.normal = r.frame.normal; // smaller areas result from rounding
     r.area = r.moments->area;
     r.centroid = r.frame.point(r.moments->centroid);
 }
 
-/// Expects a polygon whose box is not far from 1 in size.
+/// Requires a polygon whose box has a size near 1.
 PolygonResult polygon_of(std::span<const Vec3> p) {
     PolygonResult r;
     r.kind = face_kind(p);

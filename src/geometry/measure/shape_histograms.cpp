@@ -16,9 +16,9 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t shape_chunk = 65536; // faces; each has counts of its own
+constexpr std::size_t shape_chunk = 65536; // faces per chunk; each chunk has separate counts
 
-/// Numbers into bins; chunks are joined in order, so that sums do not depend on threads.
+/// Counts numbers in bins. Chunks are joined in order, so that sums do not depend on threads.
 struct Counted {
     std::vector<std::uint64_t> counts;
     std::uint64_t total = 0;
@@ -45,7 +45,7 @@ struct Counted {
     }
 };
 
-// Powers of two and quarters of them.
+// The bins cover powers of two, each divided into four.
 constexpr int lowest_octave = -150, octaves = 300;
 constexpr double quarters[4] = {1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
 
@@ -56,7 +56,7 @@ std::vector<double> powers(int first_octave, std::size_t bins) {
     return limits;
 }
 
-/// The bin of x if bins begin at the octave, four to an octave; smaller values are in the first.
+/// The bin of x, with four bins to an octave, from first_octave on. Smaller values go into the first bin.
 std::size_t power_bin(double x, int first_octave) {
     if (!(x > 0)) return 0;
     constexpr int mantissa_bits = 52, bias = 1023;
@@ -64,17 +64,18 @@ std::size_t power_bin(double x, int first_octave) {
     const int octave = static_cast<int>(bits >> mantissa_bits) - bias - first_octave;
     if (octave < 0) return 0;
     const std::uint64_t below_two = bits & ((std::uint64_t{1} << mantissa_bits) - 1);
-    const double mantissa = std::bit_cast<double>(below_two | std::uint64_t{bias} << mantissa_bits); // 1 to 2
+    const double mantissa =
+        std::bit_cast<double>(below_two | std::uint64_t{bias} << mantissa_bits); // from 1 to 2
     const int quarter = (mantissa >= quarters[1]) + (mantissa >= quarters[2]) + (mantissa >= quarters[3]);
     return static_cast<std::size_t>(4 * octave + quarter);
 }
 
-constexpr double angle_bin = 2.5; // degrees
+constexpr double angle_bin = 2.5; // bin width in degrees
 constexpr std::size_t angle_bins = 72, aspect_bins = 24;
 
 struct Shapes {
-    /// Separate counts of the first, second and third edges of faces: neighbours are alike, so a single count
-    /// would wait for itself.
+    /// Separate counts of the first, second and third edges of faces. Neighbours often fall into the same
+    /// bin, so with a single count each addition would wait for the previous one.
     std::array<Counted, 3> edges{Counted(4 * octaves), Counted(4 * octaves), Counted(4 * octaves)};
     Counted angles{angle_bins}, aspects{aspect_bins};
     std::uint64_t flat = 0;
@@ -96,14 +97,14 @@ struct Shapes {
     }
 };
 
-/// At the end of an edge before the next one.
+/// The cosine of the angle between an edge and the next edge, at their common corner.
 double cosine_between(const Vec3& edge, double its_length, const Vec3& next, double next_length) {
     const double lengths = its_length * next_length;
     return lengths > 0 ? std::clamp(-dot(edge, next) / lengths, -1.0, 1.0)
-                       : 1; // a corner without sides has no angle
+                       : 1; // a corner with an edge of length 0 has no angle
 }
 
-/// smallest: the smallest angle; worst: the aspect.
+/// smallest: the smallest angle. worst: the largest aspect ratio.
 void add_shape(double smallest, double worst, Shapes& out) {
     const double angle = smallest * 180 / pi;
     out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
@@ -113,8 +114,8 @@ void add_shape(double smallest, double worst, Shapes& out) {
         ++out.flat;
 }
 
-/// Consecutive triangles. Their data is gathered first, then angles are computed side by side, then all is
-/// counted, in order. No step waits for a decision of another.
+/// A batch of consecutive triangles. Data is gathered first, then angles are computed, then everything is
+/// counted in order. So no step waits for a branch of another step.
 class TriangleBatch {
   public:
     bool is_full() const { return count_ == most; }
@@ -122,20 +123,22 @@ class TriangleBatch {
     void add(const Vec3& a, const Vec3& b, const Vec3& c) {
         const std::array<Vec3, 3> sides{b - a, c - b, a - c};
         const std::array<double, 3> lengths{length(sides[0]), length(sides[1]), length(sides[2])};
-        const double twice = length(cross(sides[0], sides[2])); // the area
+        const double twice = length(cross(sides[0], sides[2])); // twice the area
         const std::array<double, 3> along{-dot(sides[1], sides[2]), -dot(sides[2], sides[0]),
                                           -dot(sides[0], sides[1])};
         // The smallest angle is opposite the shortest edge.
         const auto [x, y, z] = lengths;
-        const bool is_x = static_cast<int>(x <= y) & static_cast<int>(x <= z); // no branch: none is likelier
+        const bool is_x = static_cast<int>(x <= y) &
+                          static_cast<int>(x <= z); // avoids branches, because no outcome is likelier
         const std::size_t shortest = static_cast<std::size_t>(!is_x) * (y <= z ? 1U : 2U);
         const std::size_t i = count_++;
         for (std::size_t k = 0; k < 3; ++k) edges_[3 * i + k] = lengths[k];
         aspects_[i] = aspect_ratio(x, y, z, twice / 2);
         y_[i] = twice;
         x_[i] = along[shortest];
-        if (twice > 1e-140 && twice < 1e140) return; // the area gives the angle without a root of its own
-        // Flat, or fourth powers of lengths overflow; if squares of lengths overflow, too, the cosine is -1.
+        if (twice > 1e-140 && twice < 1e140) return; // the area gives the angle without another square root
+        // For triangles that are flat, or whose lengths' fourth powers overflow. If squares of lengths also
+        // overflow, the cosine is -1.
         const std::size_t first = (shortest + 1) % 3, second = (shortest + 2) % 3;
         odd_.emplace_back(i, arc_cosine(std::max(-1.0, cosine_between(sides[first], lengths[first],
                                                                       sides[second], lengths[second]))));
@@ -157,7 +160,7 @@ class TriangleBatch {
 
     std::size_t count_ = 0;
     std::array<double, 3 * most> edges_;
-    std::array<double, most> y_, x_, aspects_;        ///< y and x: of the smallest angle
+    std::array<double, most> y_, x_, aspects_;        ///< y_ and x_ give the smallest angle
     std::vector<std::pair<std::size_t, double>> odd_; ///< triangles whose angles are computed separately
 };
 
@@ -173,7 +176,7 @@ class ShapesOfFaces {
         const auto corners = static_cast<Index>(mesh_.corner_count());
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
             constexpr Index ahead = 24;
-            if (f + ahead < end) { // a large face's first points will do
+            if (f + ahead < end) { // prefetches only the first points of a large face
                 const Index first = mesh_.face_begin(f + ahead);
                 for (Index c = first; c < std::min(first + 3, corners); ++c) fetch_soon(mesh_.point(c));
             }
@@ -189,7 +192,7 @@ class ShapesOfFaces {
     }
 
   private:
-    /// As add, without arrays of unknown size: most faces are triangles.
+    /// Like add, without arrays of unknown size, because most faces are triangles.
     void add_triangle(Index f, TriangleBatch& triangles) const {
         const Index first = mesh_.face_begin(f);
         const Vec3 a = point(first), b = point(first + 1), c = point(first + 2);
@@ -200,13 +203,13 @@ class ShapesOfFaces {
         return is_moved_ ? to_world_.point(p) : p;
     }
 
-    /// A face in the world: its points, the edges from each of them to the next, and their lengths.
+    /// A face in the world: its points, the edge from each point to the next, and the lengths of the edges.
     struct Outline {
         std::vector<Vec3> points, edges;
         std::vector<double> lengths;
     };
 
-    /// False where a point is not finite.
+    /// Fills the outline of a face. False if a point is not finite.
     bool follow(Index f, Outline& outline) const {
         const Index first = mesh_.face_begin(f);
         const std::size_t n = mesh_.face_end(f) - first;
@@ -224,7 +227,7 @@ class ShapesOfFaces {
         return true;
     }
 
-    /// The largest of the triangles around the first corner.
+    /// The largest aspect ratio of the triangles of the fan from the first corner.
     static double worst_aspect(const Outline& o) {
         double worst = 0;
         for (std::size_t i = 1; i + 1 < o.points.size(); ++i)
@@ -235,7 +238,7 @@ class ShapesOfFaces {
     void add(Index f, Outline& outline, Shapes& out) const {
         if (!follow(f, outline)) return;
         const std::size_t n = outline.points.size();
-        double sharpest = -1; // cosine
+        double sharpest = -1; // cosine of the smallest angle so far
         for (std::size_t i = 0; i < n; ++i) {
             out.add_edge(i, outline.lengths[i]);
             const std::size_t next = i + 1 < n ? i + 1 : 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Statistics as reports have them.
+// Fields of statistics in reports.
 
 #include "geometry/measure/measure.hpp"
 #include "options/fields.hpp"
@@ -8,11 +8,11 @@
 
 namespace facetmill {
 
-/// Declares count and, of one number or more, minimum, maximum, mean, median and deviation, all times the
+/// Declares the count and, if it is not 0, minimum, maximum, mean, median and deviation, multiplied by the
 /// factor. For DeclareFields::object.
 std::function<void(DeclareFields<Statistics>&)> statistics_fields(std::string unit = "", double factor = 1);
 
-/// "edges 0.1 to 2 (mean 1)", times the factor; empty when nothing was counted.
+/// For example "edges 0.1 to 2 (mean 1)", multiplied by the factor; empty without numbers.
 [[nodiscard]] std::string range_text(const char* name, const Statistics& s, double factor = 1);
 
 } // namespace facetmill

@@ -1,7 +1,7 @@
-// Attributes in the error: over a face, each number of an attribute is the linear function g.p + d. Let s be
-// the value at a vertex. The faces that the vertex represents then differ from it by the sum of area * (g.p +
-// d - s)^2. The mean is the best s, and the remaining error is again a quadric in p. After H. Hoppe, 'New
-// quadric metric for simplifying meshes with appearance attributes' (1999).
+// The error of attributes: over a face, each number of an attribute is a linear function g.p + d. If a
+// vertex has the value s, its faces differ from it by the sum of area * (g.p + d - s)^2. The mean is the
+// best s, and the remaining error is again a quadric in p. Follows H. Hoppe, 'New quadric metric for
+// simplifying meshes with appearance attributes' (1999).
 
 #include "geometry/simplify/attributes.hpp"
 
@@ -15,16 +15,17 @@ namespace {
 
 // Faces with less height than this share of their longest edge do not contribute gradients.
 constexpr double least_height_share = 1e-3;
-constexpr std::size_t max_sets = 2;        // of UVs
-constexpr std::size_t skin_channels = 4;   // of the projection of skin weights
-constexpr double share_of_diagonal = 0.01; // that a difference of 1 counts as, except for UVs
+constexpr std::size_t max_sets = 2;      // sets of UVs
+constexpr std::size_t skin_channels = 4; // channels of the projection of skin weights
+constexpr double share_of_diagonal =
+    0.01; // a difference of 1 counts as this share of the diagonal, except for UVs
 
 /// The numbers of an attribute, or of its projection, that contribute to the error.
 struct Channels {
     const Attribute* of = nullptr;
-    const Attribute* joints = nullptr; ///< of skin weights
+    const Attribute* joints = nullptr; ///< the joints of skin weights
     std::size_t count = 0;
-    double scale = 0; ///< to lengths in the work's frame
+    double scale = 0; ///< scale to lengths in the work's frame
 };
 
 Index element_of(const Mesh& mesh, const Attribute& a, Index corner) {
@@ -77,7 +78,7 @@ class Values {
             if (a.role == Role::colour)
                 add({&a, nullptr, static_cast<std::size_t>(a.components), weights.colour * unit});
             if (a.role != Role::weights) continue;
-            std::string joints = a.name; // WEIGHTS_0 -> JOINTS_0
+            std::string joints = a.name; // maps WEIGHTS_0 to JOINTS_0
             if (joints.rfind("WEIGHTS", 0) == 0) joints.replace(0, 7, "JOINTS");
             const Attribute* j = mesh.find(joints, a.domain);
             if (j && j->components == a.components) add({&a, j, skin_channels, weights.skin * unit});
@@ -138,7 +139,7 @@ class FaceGradients {
         const double nn = dot(n, n), longest = std::max({dot(u, u), dot(v, v), dot(u - v, u - v)});
         if (!(nn > least_height_share * least_height_share * longest * longest)) return false;
         const double area = std::sqrt(nn) / 2;
-        const Vec3 to_u = cross(v, n) / nn, to_v = cross(n, u) / nn; // dual to u and v
+        const Vec3 to_u = cross(v, n) / nn, to_v = cross(n, u) / nn; // the dual basis of u and v
         const std::size_t count = values_.count();
         for (Index k = 0; k < 3; ++k) values_.at(3 * s_.face_source[f] + k, &at_[k * count]);
         square = {};
@@ -170,13 +171,13 @@ class FaceGradients {
     std::vector<double> sums;
 };
 
-// Attributes of the result: from the shape back to a mesh, and from the log to the attributes.
+// Attributes of the result: converts the shape to a mesh, and finds the attributes from the log.
 
-/// A point as a mix of up to three elements; unused elements have weight 0.
+/// A point as a weighted mix of up to three elements. Unused elements have weight 0.
 struct Mix {
     std::array<Index, 3> of{none, none, none};
     std::array<double, 3> weight{1, 0, 0};
-    double distance = HUGE_VAL; ///< squared
+    double distance = HUGE_VAL; ///< squared distance
 };
 
 /// Parameter of the point of a segment that is nearest to p, 0 at a.
@@ -213,8 +214,8 @@ std::array<double, 3> nearest_on_triangle(const Vec3& p, const std::array<Vec3, 
 /// Maps the elements of a domain (vertices or wedges) from the input mesh to the result.
 class Followed {
   public:
-    /// survivors: the old element of each new element; vertex_of: the new vertex of each; element: the old
-    /// element at a corner.
+    /// survivors: the old element of each new element. vertex_of: the new vertex of each new element.
+    /// element: the old element at a corner.
     template <class Element>
     Followed(const Shape& s, const Mesh& from, const Log& log, std::size_t old_count,
              const std::vector<Index>& survivors, const std::vector<Index>& vertex_of,
@@ -248,7 +249,7 @@ class Followed {
   private:
     bool moved(Index e) const { return s_.moved[vertex_of_[e]] != 0; }
 
-    /// Finds the new element that each old one merged into, going from the last merge to the first.
+    /// Finds the new element that each old element merged into, from the last merge to the first.
     void find_owners(std::size_t old_count, const std::vector<Merge>& merges) {
         owner_.assign(old_count, none);
         for (std::size_t e = 0; e < survivors_.size(); ++e) owner_[survivors_[e]] = static_cast<Index>(e);
@@ -327,8 +328,8 @@ class Followed {
     const Mesh& from_;
     const std::vector<std::uint8_t>& features_; ///< see Log::features
     const std::vector<Index>&survivors_, &vertex_of_;
-    std::vector<Index> owner_, corner_element_; ///< old elements -> new ones; corners -> old elements
-    std::vector<Index> begin_, faces_;          ///< of each new element: the faces that contributed to it
+    std::vector<Index> owner_, corner_element_; ///< [old elements] new elements; [corners] old elements
+    std::vector<Index> begin_, faces_;          ///< [new elements] the faces that contributed to each
 };
 
 /// Fills corners and wedge_vertex; returns the surviving wedges of the input, in the order of the new wedges.

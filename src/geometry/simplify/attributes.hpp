@@ -1,12 +1,12 @@
 #pragma once
-// Attributes: their weight in the error, and their values in the result.
+// Attributes: their error, and their values in the result.
 
 #include "geometry/simplify/state.hpp"
 
 namespace facetmill::simplification {
 
-/// The attributes' part of the error; empty when no attribute is weighed. normals: false when the normals of
-/// the mesh carry no information.
+/// The attributes' part of the error; empty if no attribute has a weight. normals: false if the mesh's
+/// normals carry no information.
 [[nodiscard]] std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
                                                             const AttributeWeights& weights, bool normals);
 /// The attribute error of merging elements a and b at p, as a quadric of p. Its weight does not include the
@@ -28,8 +28,8 @@ struct Finished {
 ///
 /// A moved vertex gets the attributes of the input surface, at the nearest point of the faces around all
 /// vertices merged into it. On a feature line it uses the nearest point of that line. So a texture cannot
-/// slide farther than the surface moves, and both sides of a seam are sampled at the same point. Repeated
-/// mixing does not blur the values either. (Mixing the two ends at every collapse drifted.)
+/// slide farther than the surface moves, both sides of a seam are sampled at the same point, and the values
+/// are not blurred. (Mixing the two ends at every collapse drifted.)
 [[nodiscard]] Finished finish(const Shape& shape, const Mesh& from, const Log* log);
 
 } // namespace facetmill::simplification

@@ -30,7 +30,7 @@ constexpr double near_enough = 0.01;
 // A face that takes more points drops the centres. It replaces so many faces that their centres are as close
 // to it as the vertices around them.
 constexpr Index many_points = 256;
-constexpr float share_left = 1.0f / 4; // for a squared error where faces intersect: half the distance
+constexpr float share_left = 1.0f / 4; // for squared errors where faces intersect: halves the distance
 
 /// The vertices of the surface and the centres of its faces, each with one of its faces. input: the tree of
 /// the mesh that the state was built from; the faces keep that mesh's numbers.
@@ -91,7 +91,7 @@ void lay_fan(const State& s, Around& r, const Vec3& to) {
     for (const RingCorner& k : r.staying) r.bounds.add(s.at[k.next], s.at[k.before]);
 }
 
-/// The nearest of the surviving faces, or any that is near enough; none when all are too far.
+/// The nearest of the surviving faces, or any face that is near enough; none if all are too far.
 Index taker_of(const State& s, const Around& r, const Vec3& to, const Vec3& p, std::size_t lane) {
     const double farthest = s.bounds.followed->farthest;
     const auto first = static_cast<Index>(r.bounds.nearest(lane));
@@ -134,7 +134,7 @@ bool take_points(const State& s, Around& r, const Vec3& to) {
 void move_to_front(FollowedPoints& followed, const Around& r, std::size_t firsts, std::size_t lost) {
     if (lost < firsts) return;
     const auto next = [&](std::size_t i) -> Index& { return followed.points[r.points[i]].next; };
-    std::size_t begin = lost; // of the list
+    std::size_t begin = lost; // the first point of the list
     while (begin > firsts && next(begin - 1) == r.points[begin]) --begin;
     std::size_t first = 0;
     while (next(first) != r.points[begin]) ++first;
@@ -262,9 +262,9 @@ Mesh bare_used(const Mesh& from) {
 
 /// The movement of an origin's vertices through a prefix of a log.
 struct Moves {
-    std::vector<Index> root;         ///< [vertices of the origin]
-    std::vector<Vec3> at;            ///< [roots]
-    std::vector<std::uint8_t> moved; ///< [roots]
+    std::vector<Index> root;         ///< [vertices of the origin] the vertex that each merged into
+    std::vector<Vec3> at;            ///< [roots] positions
+    std::vector<std::uint8_t> moved; ///< [roots] 1 for moved vertices
 };
 
 Moves moves_after(const Origin& o, const Log& log, std::size_t steps) {
@@ -282,7 +282,7 @@ Moves moves_after(const Origin& o, const Log& log, std::size_t steps) {
     return m;
 }
 
-/// True if a face survives; faces that were flat in the origin also do.
+/// True if a face survives. Faces that were flat in the origin also survive.
 bool stands(const Origin& o, const Moves& m, std::size_t f) {
     const Index a = o.shape.tri[3 * f], b = o.shape.tri[3 * f + 1], c = o.shape.tri[3 * f + 2];
     const Index x = m.root[a], y = m.root[b], z = m.root[c];
@@ -331,7 +331,7 @@ std::size_t longest_good(const Origin& origin, const Mesh& from, const Log& log,
     return good;
 }
 
-/// [vertices of the input] the largest squared error of the steps that merged it.
+/// [vertices of the input] The largest squared error of the steps that merged each vertex.
 std::vector<float> largest_errors(const Log& log, std::size_t vertices) {
     std::vector<float> largest(vertices, 0);
     for (const Step& step : log.steps)
@@ -453,8 +453,8 @@ std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& f
                 const Index v = shape.source[shape.tri[3 * face + k]];
                 wanted[v] = to_zero ? 0 : largest[v] * share_left;
             }
-    // Lowers the limit of every vertex that merged into the new one. Backwards, so that the change of a is
-    // known.
+    // Lowers the limit of every vertex that merged into the new vertex. Goes backwards, so that the change
+    // of a is known.
     for (auto step = log.steps.rbegin(); step != log.steps.rend(); ++step)
         wanted[step->b] = std::min(wanted[step->b], wanted[step->a]);
     for (std::size_t v = 0; v < limits.size(); ++v) limits[v] = std::min(limits[v], wanted[v]);

@@ -11,7 +11,7 @@ namespace facetmill::simplification {
 
 namespace {
 
-constexpr std::uint32_t finest = 1u << 20; // cells along an axis
+constexpr std::uint32_t finest = 1u << 20; // the largest number of cells along an axis
 // How strongly a representative is pulled to the mean of its vertices: enough to keep it there in a flat
 // cell.
 constexpr double pull_to_mean = 1e-3;
@@ -19,10 +19,10 @@ constexpr double pull_to_mean = 1e-3;
 /// The vertices and faces that a grid produces.
 struct Clusters {
     std::vector<Index> root;  ///< [vertices of the work] the first vertex in the same cell
-    std::vector<Vec3> at;     ///< [roots]
+    std::vector<Vec3> at;     ///< [roots] positions
     std::vector<Index> faces; ///< the faces that stay, in order
-    std::size_t vertices = 0; ///< cells
-    double largest = 0;       ///< squared distance to the planes, the mean over a cell
+    std::size_t vertices = 0; ///< the number of nonempty cells
+    double largest = 0;       ///< the largest mean squared distance to the planes of a cell
 };
 
 struct CellKey {
@@ -30,7 +30,7 @@ struct CellKey {
     Index vertex;
 };
 
-/// The vertices of a cell, as a range of the sorted ones.
+/// The vertices of a cell, as a range of the sorted vertices.
 struct Cell {
     std::size_t begin, end;
 };
@@ -108,7 +108,7 @@ double place_cell(const State& s, const Grid& grid, std::span<const CellKey> mem
     return q.weight > 0 ? q(at - from) / q.weight : 0;
 }
 
-/// A face by its three roots, starting at the lowest; turned: the other two are in descending order.
+/// A face by its three roots, starting with the lowest. turned: the other two are in descending order.
 struct Triple {
     Index low, middle, high;
     bool turned;
@@ -123,8 +123,8 @@ Triple triple_of(const State& s, const Clusters& c, Index f) {
     return {v[0], std::min(v[1], v[2]), std::max(v[1], v[2]), turned, f};
 }
 
-/// Of several faces with the same vertices, keeps the first that faces to the majority's side. Without a
-/// majority it keeps one face for each side.
+/// Keeps one of several faces with the same vertices: the first that faces to the majority's side. Without a
+/// majority, keeps a face for each side.
 void keep_some(std::span<const Triple> same, std::vector<Index>& faces) {
     const auto turned = std::count_if(same.begin(), same.end(), [](const Triple& t) { return t.turned; });
     const auto other = static_cast<std::ptrdiff_t>(same.size()) - turned;
@@ -136,7 +136,8 @@ void keep_some(std::span<const Triple> same, std::vector<Index>& faces) {
     if (other >= turned) first(false);
 }
 
-/// Finds the faces that stay: they have three roots. Among coincident faces, at most one for each side stays.
+/// Finds the faces that stay because they have three roots. Among coincident faces, at most one stays for
+/// each side.
 void keep_faces(const State& s, Clusters& c) {
     std::vector<Triple> triples;
     for (Index f = 0; f < s.face_slots(); ++f) {
@@ -274,7 +275,7 @@ Clusters unclustered(const State& s) {
     return c;
 }
 
-/// The coarsest grid whose shape is within the bound, in steps of a third; 0 when none is.
+/// The coarsest grid whose shape is within the bound, found in steps of a third; 0 if no grid is.
 std::uint32_t coarsest_within(const State& s, const Judge& judge, double bound, Ended& end) {
     const auto good = [&](std::uint32_t n) {
         const Clusters c = cluster(s, Grid(n));

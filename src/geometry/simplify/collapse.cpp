@@ -260,9 +260,9 @@ class Collapse {
         return static_cast<int>(count);
     }
 
-    /// The links of the ends meet only in the opposite vertices (T. Dey, H. Edelsbrunner, S. Guha and D.
-    /// Nekhayev, 'Topology preserving edge contraction', 1999). The outside of a boundary, and both sides of
-    /// a feature line, count as an additional vertex.
+    /// True if the links of the ends meet only in the opposite vertices (T. Dey, H. Edelsbrunner, S. Guha
+    /// and D. Nekhayev, 'Topology preserving edge contraction', 1999). The outside of a boundary, and both
+    /// sides of a feature line, count as an additional vertex.
     bool link_condition(bool along) {
         r_.changes_topology = common_neighbours() != r_.sides || r_.sides > 2 ||
                               (r_.sides == 2 && joined(r_.at_a) && joined(r_.at_b)); // the last tetrahedron
@@ -287,8 +287,8 @@ class Collapse {
         });
     }
 
-    /// The two edges to an opposite vertex merge into an edge with the remaining faces of both. An edge of
-    /// more than two faces must keep their number.
+    /// The two edges to an opposite vertex merge into an edge with the remaining faces of both. An edge with
+    /// more than two faces must keep this number.
     bool keeps_non_manifold_edges() const {
         const std::vector<Kind>& kind = s_.features->kind;
         if (kind[r_.a] != Kind::pinned && kind[r_.b] != Kind::pinned) return true;
@@ -420,7 +420,7 @@ class Collapse {
         s_.rings.first[r_.b] = none;
     }
 
-    /// The edges from a and b to the opposite vertex merge: the result is a feature if either was.
+    /// The edges from a and b to the opposite vertex merge. The result is a feature if either edge was.
     void pass_on_features(const Side& side) {
         const auto either = static_cast<std::uint8_t>(
             (edge_flags(side.at_a, side.opposite) | edge_flags(side.at_b, side.opposite)) &

@@ -35,7 +35,7 @@ struct Cancelled {
 
 /// The vertices that a worker may touch: one or two chunks of the curve, or all vertices.
 struct Territory {
-    Index size = none;           ///< of a chunk
+    Index size = none;           ///< number of vertices in a chunk
     Index first = 0, second = 0; ///< the lowest vertices of the chunks
 
     bool has(Index v) const { return v - first < size || v - second < size; }
@@ -52,15 +52,15 @@ struct Around {
     std::array<Side, max_sides> side{};
     int sides = 0; ///< may exceed max_sides: then the edge stays
 
-    // Used only where topology may change.
+    // Used only if topology may change.
     bool waits = false; ///< postpones topology changes
     bool changes_topology = false;
     std::array<Cancelled, max_sides> cancelled{};
     int cancellations = 0;
 
     // Used only for max_error, see bounds.cpp.
-    std::vector<RingCorner> staying; ///< at a or b, for each surviving face around the edge
-    std::vector<Index> points;       ///< of the faces around the edge
+    std::vector<RingCorner> staying; ///< the corner at a or b of each surviving face around the edge
+    std::vector<Index> points;       ///< points of the faces around the edge
     std::vector<Index> taken_by;     ///< [points] index into staying of the face that takes the point
     FanBounds bounds;                ///< distances of points to the faces of staying
 };
@@ -74,9 +74,9 @@ struct Tally {
 
 enum class Attempt {
     done,
-    refused, ///< it would break a guarantee: the edge is blocked and its flags give the reason
+    refused, ///< the collapse would break a guarantee: the edge is blocked, and its flags give the reason
     outside, ///< something around the edge is outside the territory: no change
-    later,   ///< it would change the topology and is postponed: no change
+    later,   ///< the collapse would change the topology and is postponed: no change
 };
 /// Collapses the edge of corner c if all guarantees hold, and updates the cost of every changed edge. around:
 /// scratch memory that also holds the territory.

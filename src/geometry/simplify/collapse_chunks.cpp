@@ -16,8 +16,8 @@ namespace facetmill::simplification {
 
 namespace {
 
-constexpr int stretches_bits = 4;                   // for a small surface: 8 to 16 chunks
-constexpr int least_stretch = 11, max_stretch = 13; // bits: 2048 to 8192 vertices
+constexpr int stretches_bits = 4;                   // small surfaces have 8 to 16 chunks
+constexpr int least_stretch = 11, max_stretch = 13; // in bits: 2048 to 8192 vertices
 
 /// A bijection of 32 bits.
 std::uint32_t scattered(std::uint32_t x) {
@@ -39,9 +39,10 @@ struct Crossing {
 struct Share {
     Territory territory;
     std::vector<Candidate> edges{};
-    std::vector<Crossing> crossing{}; ///< reach from the only chunk of the territory into one other
-    std::vector<Candidate> rest{};    ///< reach into more chunks
-    std::vector<Candidate> later{};   ///< change the topology
+    std::vector<Crossing>
+        crossing{};                 ///< edges that reach from the territory's only chunk into one other chunk
+    std::vector<Candidate> rest{};  ///< edges that reach into more chunks
+    std::vector<Candidate> later{}; ///< edges whose collapse changes the topology
     Tally tally{};
 };
 
@@ -159,8 +160,8 @@ class Stretches {
 
     State& s_;
     int bits_;
-    std::vector<Share> shares_;      // per chunk
-    std::vector<Crossing> crossing_; // between two chunks
+    std::vector<Share> shares_;      // one per chunk
+    std::vector<Crossing> crossing_; // edges between two chunks
     Share rest_;
     PassTotals totals_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// One pass over one state: workers with disjoint territories collapse the edges below a threshold in order of
+// A pass over a state: workers with disjoint territories collapse the edges below a threshold in order of
 // cost.
 
 #include "geometry/simplify/collapse.hpp"
@@ -10,7 +10,7 @@
 
 namespace facetmill::simplification {
 
-/// Edges by cost; edges of equal cost come in an order that is spread over the surface.
+/// An edge sorted by cost. Edges of equal cost are ordered so that they are spread over the surface.
 struct Candidate {
     std::uint64_t key;
     Index corner;
@@ -28,8 +28,9 @@ struct Candidate {
 /// The totals of a pass; the collapses are also added to the state's log and counts.
 struct PassTotals {
     std::size_t collapses = 0;
-    double largest = 0;             ///< see Tally
-    std::vector<Candidate> later{}; ///< they change the topology and may remove more than two faces
+    double largest = 0; ///< see Tally
+    std::vector<Candidate>
+        later{}; ///< edges whose collapse changes the topology and may remove more than two faces
 };
 /// Adds a worker's collapses to the state.
 void join(State& s, Tally& tally, PassTotals& totals);
@@ -40,7 +41,7 @@ void join(State& s, Tally& tally, PassTotals& totals);
 [[nodiscard]] PassTotals collapse_in_chunks(State& s, std::span<const std::vector<Candidate>> found,
                                             const std::function<std::size_t()>& most);
 
-/// True if an edge is still to be collapsed: its face is alive, and the pass touched neither end.
+/// True if an edge may still be collapsed: its face is alive, and the pass touched neither end.
 inline bool is_open(const State& s, Index corner) {
     return s.live(corner / 3) && s.order.touched[s.tri[corner]] != s.order.pass &&
            s.order.touched[s.tri[after(corner)]] != s.order.pass;

@@ -51,7 +51,7 @@ class Replay {
     }
 
     State& s_;
-    std::vector<Index> last_; ///< last corner of the list of each vertex
+    std::vector<Index> last_; ///< [vertices] the last corner of the list
 };
 
 } // namespace

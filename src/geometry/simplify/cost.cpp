@@ -10,10 +10,9 @@ namespace facetmill::simplification {
 namespace {
 
 // How strongly the new vertex is pulled to the middle of the edge, relative to the quadric's weight. It
-// matters only where the planes leave the vertex free, as in flat and straight regions. It exceeds the
-// rounding error of the quadrics. The cost is also computed in single precision, the position is not. With
-// fine quadrics it is smaller, but planes that float32 coordinates turn by about 1e-5 radians still count as
-// coplanar.
+// matters only if the planes leave the vertex free, in flat and straight regions. It exceeds the rounding
+// error of the quadrics in single precision. With fine quadrics it is smaller, but planes that float32
+// coordinates turn by about 1e-5 radians still count as coplanar.
 constexpr double pull = 2e-7, fine_pull = 1e-10;
 constexpr float pull_of_cost = 1e-6f;
 // Short edges go first where errors are equal, as if each vertex were displaced by a thousandth of the edge.
@@ -23,11 +22,11 @@ constexpr float shortness = 1e-6f, fine_shortness = 1e-10f;
 // An optimum is rejected if its squared distance from the edge's middle exceeds this multiple of the squared
 // half length.
 constexpr float max_off = 16;
-// Edges are ordered by the sum of squared distances over area^(3/8), a compromise. The plain sum allows large
-// errors on small parts. The mean spends faces on small parts, and allows large errors on narrow strips of
-// long edges, such as fillets and bores. The area is capped at this multiple of the edge's squared length (5
-// in an even mesh). Otherwise large flat faces next to a boundary would make it cheap, depending on where
-// their corners happen to be.
+// Edges are ordered by the sum of squared distances divided by area^(3/8). This is a compromise: the plain
+// sum allows large errors on small parts. The mean spends faces on small parts, and allows large errors on
+// narrow strips of long edges, such as fillets and bores. The area is capped at this multiple of the edge's
+// squared length (5 in an even mesh). Otherwise large flat faces next to a boundary would make its edges
+// cheap, depending on the positions of the faces' corners.
 constexpr float reach = 12;
 
 /// Chooses where two free ends should meet, relative to the middle. half: from the middle to the second end.
@@ -36,7 +35,8 @@ Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, const State&
     if (!endpoints) {
         const Vec3 best =
             q.weight > 0 ? q.least({}, (s.quadrics->fine ? fine_pull : pull) * q.weight) : Vec3{};
-        // Far from the edge, the system was nearly singular: the ends and the middle are safer.
+        // If the optimum is far from the edge, the system was nearly singular. The ends and the middle are
+        // safer.
         if (dot(best, best) <= max_off * dot(half, half)) return best;
     }
     const double at_a = q(-half), at_b = q(half), at_middle = q({});
@@ -77,7 +77,7 @@ void add_attributes(Quadric& q, const State& s, Index corner, bool along, const 
 /// The quadrics of both ends of an edge with their attributes, relative to the edge's middle.
 struct Meeting {
     Index u, v;
-    Vec3 half; ///< from the middle to v
+    Vec3 half; ///< vector from the middle to v
     Quadric shape, all;
 
     Meeting(const State& s, Index corner, std::uint8_t flags)

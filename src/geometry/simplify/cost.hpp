@@ -14,8 +14,8 @@ inline constexpr double least_height = 1e-5;
 /// factor of ten or more.
 inline constexpr double doubtful = 4e-6;
 
-/// The quadrics of all vertices: the sum over their faces' planes and the planes that hold feature edges and
-/// sharp folds.
+/// The quadrics of all vertices. Each sums the planes of its faces, and the planes that hold feature edges
+/// and sharp folds.
 [[nodiscard]] std::vector<NearQuadric> vertex_quadrics(const State& s);
 /// Sets the quadrics; also the fine quadrics if much of the surface is flat or nearly flat.
 void set_quadrics(State& s);
@@ -26,12 +26,12 @@ inline bool may_go(Kind u, Kind v, std::uint8_t flags) {
     return u == Kind::smooth || v == Kind::smooth || (flags & feature_edge); // not across a feature
 }
 
-/// Where the vertex of a collapse goes, for an edge that may_go allows.
+/// The position of the vertex of a collapse, for an edge that may_go allows.
 struct Placement {
     Vec3 at;
     double error = 0; ///< squared distance, as estimated by the quadric or the edge's length
     bool keep_first = false, keep_second = false; ///< the new vertex is exactly this end
-    Quadric joined{};                             ///< sum of the quadrics of both ends, about `at`
+    Quadric joined{};                             ///< sum of the quadrics of both ends, relative to `at`
 };
 /// Finds the point where the ends of a corner's edge should meet. flags: the corner's.
 [[nodiscard]] Placement place(const State& s, Index corner, std::uint8_t flags);

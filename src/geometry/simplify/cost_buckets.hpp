@@ -11,8 +11,8 @@
 
 namespace facetmill::simplification {
 
-inline constexpr int bucket_shift = 19; ///< of a cost's bits: 16 buckets per power of two
-inline constexpr std::size_t buckets = 0x7f800000u >> bucket_shift; ///< of finite costs
+inline constexpr int bucket_shift = 19; ///< drops bits of a cost, so that 16 buckets cover a power of two
+inline constexpr std::size_t buckets = 0x7f800000u >> bucket_shift; ///< number of buckets for finite costs
 
 /// The number of edges whose costs have the same leading bits.
 struct Bucket {

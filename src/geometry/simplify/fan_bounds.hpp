@@ -1,7 +1,7 @@
 #pragma once
-// Bounds on the distances between points and the triangles around a vertex. They go both ways: from the
-// points to the triangles, and from sample points on the triangles. They are computed in float32, four at a
-// time, so that most pairs need no exact test.
+// Bounds on the distances between points and the triangles around a vertex. They bound distances from points
+// to triangles, and from sample points on triangles to points. They are computed in float32, four at a time,
+// so that most pairs need no exact test.
 
 #include "base/math/simd.hpp"
 #include "base/math/vec.hpp"
@@ -30,7 +30,7 @@ class FanBounds {
         near_square_ = within > 0 ? static_cast<float>(within * within * (1 - 1e-6)) : -1;
     }
 
-    /// The next triangle: the shared vertex, b and c.
+    /// Adds a triangle of the shared vertex, b and c.
     void add(const Vec3& b, const Vec3& c) {
         Triangle& t = triangles_.emplace_back();
         if (!(unit_ > 0)) return;

@@ -96,7 +96,7 @@ class Classifier {
     }
 
     /// Flags the edges that leave a pinned vertex like `walk` does, but only between two faces that agree.
-    /// Features of its neighbours end at such edges, and may be collapsed into it.
+    /// Features of its neighbours end at these edges, and may be collapsed into the vertex.
     void flag_around_pinned(Index v) {
         ring_.clear();
         for (Index c = s_.rings.first[v]; c != none; c = s_.rings.next[c])
@@ -316,8 +316,8 @@ CoincidentBorders::CoincidentBorders(Mesh& mesh, const std::vector<Index>& targe
 void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes,
                                  std::vector<Index>& sources) const {
     std::vector<Index> first(mesh.vertex_count(), none);
-    std::vector<Index> wedge_of(mesh.vertex_count(), none); // one per vertex
-    std::map<std::pair<Index, Index>, Index> others;        // by vertex and side
+    std::vector<Index> wedge_of(mesh.vertex_count(), none); // the wedge of each vertex
+    std::map<std::pair<Index, Index>, Index> others;        // wedges by vertex and side
     for (Index w = 0; w < wedges.size(); ++w) {
         Index& v = mesh.wedge_vertex[w];
         const Index side = sides_[wedges[w]];

@@ -1,5 +1,5 @@
 #pragma once
-// Features: how each vertex may move, and open borders with identical positions.
+// Finds features, which restrict how vertices move, and open borders with identical positions.
 
 #include "geometry/simplify/state.hpp"
 
@@ -29,14 +29,14 @@ class CoincidentBorders {
     const std::vector<Index>& sides() const { return sides_; } ///< see Features::side_of_wedge
     /// Separates the vertices of a simplified mesh again. wedges: the surviving wedges of the joined mesh.
     /// sources: for each vertex, its source in the joined mesh; the function replaces them with vertices of
-    /// the separate mesh. Empty: not needed.
+    /// the separate mesh. sources may be empty if not needed.
     void separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes,
                   std::vector<Index>& sources) const;
     /// The number of vertices that separating adds to the state.
     std::size_t doubled(const State& s) const;
 
   private:
-    std::vector<Index> sides_;             ///< [wedges of the joined mesh] the original vertex of each
+    std::vector<Index> sides_;             ///< [wedges of the joined mesh] original vertices
     std::vector<std::string> of_vertices_; ///< attributes that were in the vertex domain
     bool had_seams_ = false;
 };

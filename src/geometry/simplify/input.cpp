@@ -67,7 +67,7 @@ State SimplifyInput::state(bool rollback, const std::vector<float>* limits) {
             attribute_error(s, mesh(), settings_.weights, seams_.shading != NormalSeams::Shading::faceted);
     }
     resize_large(s.edges.cost, s.tri.size(),
-                 never); // allocated now, because the quadrics temporarily need more memory
+                 never); // allocated now, because computing the quadrics temporarily needs more memory
     s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
                .changes_topology = settings_.topology == SimplifySettings::Topology::allow,
                .apart = lock_.apart && !lock_.vertices.empty() ? &lock_.vertices : nullptr};
@@ -140,8 +140,8 @@ State SimplifyInput::laid_out() {
 }
 
 State SimplifyInput::classified() const {
-    // The length of an edge ignores the outline, which other methods have in their quadrics. Where topology
-    // may change, holes may close and small components vanish with their corners.
+    // The length of an edge ignores the outline, but the quadrics of other methods include it. If topology
+    // may change, holes may close, and small components may vanish with their corners.
     const bool corners =
         settings_.method == Method::shortest_edge && settings_.topology == SimplifySettings::Topology::keep;
     State s = lay_out(mesh(), used_);

@@ -17,7 +17,7 @@ class SimplifyInput {
     /// neighbours disagree.
     const Mesh& mesh() const { return own_ ? *own_ : given_; }
     std::size_t faces() const { return mesh().face_count(); }
-    std::size_t vertices() const { return used_.count; } ///< that faces use
+    std::size_t vertices() const { return used_.count; } ///< the number of vertices that faces use
     const CoincidentBorders* borders() const { return borders_ ? &*borders_ : nullptr; }
 
     /// Builds the state that the method needs. rollback: every collapse is logged. limits: per vertex of the

@@ -11,7 +11,8 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::string_view member_attribute = "simplify_member"; // on the faces of the joined mesh
+constexpr std::string_view member_attribute =
+    "simplify_member"; // face attribute of the joined mesh: the member's number
 
 /// A boundary edge by the world positions of its ends, the lower first.
 struct PlacedEdge {

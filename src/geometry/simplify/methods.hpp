@@ -9,7 +9,7 @@
 
 namespace facetmill::simplification {
 
-/// At most this many faces, or this many vertices, whichever comes first.
+/// The work stops at this many faces or this many vertices, whichever comes first.
 struct Goal {
     std::size_t faces = 0, vertices = 0;
 
@@ -34,7 +34,7 @@ struct Member {
     State* state;
     double unit = 1;      ///< length of the state's frame unit, in a length unit that all members share
     std::size_t uses = 1; ///< weight of its faces, vertices and collapses: the number of uses
-    Outcome done{};       ///< of all work on it
+    Outcome done{};       ///< outcome of all work on the member
 };
 /// Like run_passes for one mesh, but all members share a goal and one order of cost. A member with several
 /// uses may take the total below the goal, by one collapse per use.
@@ -64,14 +64,14 @@ struct Ended {
 [[nodiscard]] Ended run_constrained(State s, std::size_t vertices, const Goal& goal,
                                     const SimplifyConstraints& constraints);
 
-/// The method cluster: as coarse as the goal needs, or as max_error (in the mesh's units) allows.
+/// The method cluster, as coarse as the goal needs or as max_error (in the mesh's units) allows.
 ///
 /// After J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for rendering complex scenes'
 /// (1993), and P. Lindstrom, 'Out-of-core simplification of large polygonal models' (2000).
 [[nodiscard]] Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error,
                                 std::size_t samples);
 
-// For max_error while collapsing, see FollowedPoints.
+// Bounding the error during the collapses, see FollowedPoints.
 
 /// Finds the new face for each point of the faces around. Returns false if a point would be farther than
 /// allowed from all of them, or the new faces too far from the input surface.
@@ -79,7 +79,7 @@ bool points_stay_near(State& s, Around& around, const Vec3& to);
 /// Assigns each point to the face that points_stay_near found.
 void hand_over_points(State& s, const Around& around);
 
-// The bound after the collapses: the deviation is measured, and collapses are undone along the log.
+// Bounding the error after the collapses: the deviation is measured, and collapses are undone along the log.
 
 /// Measures how far shapes deviate from the input mesh, whose tree is built once.
 class Judge {
@@ -103,7 +103,7 @@ class Judge {
 /// A state before its first collapse.
 struct Origin {
     Shape shape;
-    std::vector<Index> number; ///< [vertices of the input] number in the shape
+    std::vector<Index> number; ///< [vertices of the input] numbers in the shape
 
     /// vertices: the count in the input.
     Origin(const Shape& now, std::size_t vertices);

@@ -22,7 +22,7 @@ namespace facetmill::simplification {
 namespace {
 
 constexpr std::size_t corner_chunk = 3 << 13;
-constexpr double share_per_pass = 1.0 / 8; // of the live edges that are candidates in one pass
+constexpr double share_per_pass = 1.0 / 8; // share of the live edges that are candidates in one pass
 // In buckets: near the goal, all edges of a pass cost at most four times as much as the cheapest.
 constexpr std::size_t last_span = 32;
 // Reasons that may no longer apply after the surroundings change.
@@ -160,7 +160,7 @@ class Passes {
         pricer.finish();
     }
 
-    /// The bits of a cost: edges with lower costs are candidates. 0 when no edge is left.
+    /// The threshold as the bits of a cost: edges with lower costs are candidates. 0 if no edge is left.
     std::uint32_t threshold() const {
         const std::vector<Bucket> filled = blocks_corners() <= few_corners ? few_buckets() : all_buckets();
         if (filled.empty()) return 0;
@@ -279,7 +279,7 @@ class Passes {
             State& s = *members_[m].state;
             const std::size_t uses = members_[m].uses, other_faces = faces_ - uses * s.rings.live_faces,
                               other_vertices = vertices_ - uses * s.rings.live_vertices;
-            const auto most = [&] { // as if the other states did not change
+            const auto most = [&] { // estimates the remaining number as if the other states did not change
                 const std::size_t left = remaining(other_faces + uses * s.rings.live_faces,
                                                    other_vertices + uses * s.rings.live_vertices);
                 return (left + uses - 1) / uses;
@@ -318,8 +318,8 @@ class Passes {
         for (std::size_t m = 0; m < members_.size(); ++m) join(*members_[m].state, tallies[m], totals[m]);
     }
 
-    /// Schedules another look at refused edges, because their surroundings may have changed. Repeats only
-    /// while the last look led to enough collapses.
+    /// Schedules a retry of refused edges, because their surroundings may have changed. Repeats only while
+    /// the last retry led to enough collapses.
     bool try_again() {
         if (100 * since_retry_ < faces_ || since_retry_ == 0) return false;
         since_retry_ = 0;
@@ -329,11 +329,11 @@ class Passes {
 
     std::span<Member> members_;
     Goal goal_;
-    std::vector<float> factors_;           // [members]
+    std::vector<float> factors_;           // [members] cost factors
     std::vector<std::uint8_t> changed_;    // [members] true if the last pass changed it
-    std::vector<Block> blocks_;            // of all members, in their order
-    std::vector<std::size_t> first_block_; // [members + 1]
-    std::vector<std::size_t> tasks_;       // the first block of each, and the end
+    std::vector<Block> blocks_;            // blocks of all members, in order
+    std::vector<std::size_t> first_block_; // [members + 1] index of the first block
+    std::vector<std::size_t> tasks_;       // the first block of each task, and the end
     std::size_t faces_ = 0, vertices_ = 0; // totals, weighted by use
     bool refresh_all_ = true;
     std::size_t since_retry_ = 0;

@@ -1,4 +1,4 @@
-// The parts of a scene: each is simplified as planned, by its share of the target, and compared with its
+// Simplifies the parts of a scene as planned, each by its share of the target, and compares each with its
 // input.
 
 #include "base/progress.hpp"
@@ -20,9 +20,9 @@ using Intersections = SimplifySettings::Intersections;
 
 /// The data of an input part that reports compare with the result.
 struct Before {
-    Surface surface;             ///< in the world
-    SimplifiedPart::Size size;   ///< in the world
-    Properties properties;       ///< in the world; for methods that may change more than the size
+    Surface surface;             ///< surface in the world
+    SimplifiedPart::Size size;   ///< sizes in the world
+    Properties properties;       ///< properties in the world, for methods that may change more than the size
     std::optional<double> limit; ///< max_quadric_error, in the part's own units
 };
 
@@ -39,8 +39,8 @@ struct PartsWork {
     std::map<std::size_t, std::vector<SimplifyResult>> repeats{}; ///< results that are needed again
     std::map<std::size_t, std::size_t> shares{};   ///< [first parts of sets] target number of triangles
     Stop shared_stop = Stop::nothing;              ///< the reason that ended the shared work
-    std::vector<Before> before{};                  ///< [parts]
-    std::vector<std::vector<Measured>> measured{}; ///< [parts][levels]
+    std::vector<Before> before{};                  ///< [parts] data to compare with
+    std::vector<std::vector<Measured>> measured{}; ///< [parts][levels] measurements
 };
 
 SimplifiedPart::Size size_of(const Mesh& mesh, const SurfaceSize& size) {
@@ -97,7 +97,7 @@ void share_target(PartsWork& w) {
     const std::vector<PartSet> sets = sharing_sets(w.plan);
     if (sets.size() < 2) return;
     SimplifySettings all = w.plan.o.all;
-    all.max_quadric_error.reset(); // each set has its own
+    all.max_quadric_error.reset(); // each set has its own limit
     const bool lods = !all.levels.empty();
     const bool more = !lods && (all.max_error || all.self_intersections != Intersections::ignore);
     if (lods) all.self_intersections = Intersections::ignore;
@@ -232,7 +232,9 @@ void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
     for (std::size_t p = 0; p < count; ++p)
         if (settings.selected[p]) lengths.push_back(1 + double(scene.parts[p].mesh.face_count()));
     const bool shared = settings.by_error && count > 1;
-    const double measuring = !w.plan.measures() ? 0.2 : settings.certify ? 5 : 2; // relative to the collapses
+    const double measuring = !w.plan.measures() ? 0.2
+                             : settings.certify ? 5
+                                                : 2; // time of measuring relative to the collapses
     ProgressSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
     share_target(w);
     steps.next();

@@ -121,7 +121,8 @@ void find_repeats(PartsPlan& plan) {
     const auto key = [&](std::size_t p) {
         const Transform& to_world = plan.scene.parts[p].transform;
         const bool touches = !plan.contacts.shared.empty() && !plan.contacts.shared[p].empty();
-        const bool alone = touches || !plan.o.selected[p] || !s.lock.body.empty(); // its position matters
+        const bool alone =
+            touches || !plan.o.selected[p] || !s.lock.body.empty(); // the position of these parts matters
         const double scale = by_size           ? greatest_stretch(to_world)
                              : plan.o.by_error ? ordering_scale(to_world)
                                                : 1;

@@ -11,11 +11,11 @@ using PartSet = std::vector<std::size_t>; ///< part numbers in the scene
 struct PartsPlan {
     const Scene& scene;
     const SimplifyPartsSettings& o;
-    MeshCounts all{}; ///< of the selected parts in total
+    MeshCounts all{}; ///< total counts of the selected parts
     Contacts contacts{};
     std::vector<const PartSet*> set_of{}; ///< [parts] the set in contacts that is simplified jointly; empty:
                                           ///< no such set
-    DistinctParts work{};                 ///< equal parts share the result of the first
+    DistinctParts work{};                 ///< equal parts, which share the result of the first
     std::vector<std::size_t> measured_as{}; ///< [parts] the part whose measurements apply, usually itself
     std::vector<std::size_t> samples{};     ///< [parts] samples in each direction, for the selected parts
 

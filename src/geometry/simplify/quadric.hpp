@@ -10,7 +10,7 @@ namespace facetmill::simplification {
 
 /// Q(p) = p.A p - 2 b.p + c, A symmetric; weight is the sum of the planes' weights, which is also A's trace.
 struct Quadric {
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0; ///< A
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0; ///< coefficients of A
     Vec3 b;
     double c = 0;
     double weight = 0;
@@ -28,13 +28,13 @@ struct Quadric {
         return *this;
     }
 
-    /// A y.
+    /// The product A y.
     Vec3 times(const Vec3& y) const {
         return {xx * y.x + xy * y.y + xz * y.z, xy * y.x + yy * y.y + yz * y.z,
                 xz * y.x + yz * y.y + zz * y.z};
     }
 
-    /// The value at p; rounding may leave a small negative number, which is 0.
+    /// The value at p. Small negative numbers from rounding become 0.
     double operator()(const Vec3& p) const { return std::max(0.0, dot(p, times(p)) - 2 * dot(b, p) + c); }
 
     /// The point that minimises Q(p) + pull * |p - anchor|^2. With pull > 0 it always exists. If the planes
@@ -60,10 +60,11 @@ template <class Real>
 struct QuadricAbout {
     Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0;
 };
-/// In single precision: terms near the vertex do not cancel, and errors are exact to about 1e-7 of an edge's
-/// squared length. That is enough for surfaces that are curved everywhere.
+/// A quadric in single precision. Terms near the vertex do not cancel, so errors are exact to about 1e-7 of
+/// an edge's squared length. This suffices for surfaces that are curved everywhere.
 using NearQuadric = QuadricAbout<float>;
-/// For surfaces with flat and nearly flat parts, where the smallest errors decide which edge goes first.
+/// A quadric for surfaces with flat and nearly flat parts, where the smallest errors decide which edge
+/// collapses first.
 using FineQuadric = QuadricAbout<double>;
 
 /// Moves the origin of q by h: q'(y) = q(y + h).
@@ -80,7 +81,7 @@ template <class Real>
     return seen_from(Quadric{xx, q.xy, q.xz, yy, q.yz, zz, {q.bx, q.by, q.bz}, q.c, xx + yy + zz}, h);
 }
 
-/// Rounded to the stored precision; the value at the origin is not negative.
+/// Rounds a quadric to the stored precision. Its value at the origin is not negative.
 template <class Real>
 [[nodiscard]] QuadricAbout<Real> rounded(const Quadric& q) {
     const auto f = [](double x) { return static_cast<Real>(x); };

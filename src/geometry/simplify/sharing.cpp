@@ -31,7 +31,7 @@ class Sharer {
             meshes_.size() == 1 ? std::move(meshes_.front()) : joined(pointers()), settings_);
         vertices_given_ = subject_->vertices();
     }
-    Sharer(const Sharer&) = delete; // the subject refers to the settings
+    Sharer(const Sharer&) = delete; // not copyable, because the subject refers to the settings
     Sharer& operator=(const Sharer&) = delete;
 
     std::size_t faces_given() const { return subject_->faces(); }
@@ -48,8 +48,8 @@ class Sharer {
 
     /// The unchanged meshes as results.
     std::vector<SimplifyResult> untouched() const { return split(subject_->unchanged()); }
-    /// The current state as results. met: the reached target. own: this participant's part of the target,
-    /// which it may meet although the total does not.
+    /// The current state as results. met: the reached target. own: this participant's part of the target. It
+    /// may be met even if the total is not.
     std::vector<SimplifyResult> results(Stop met, const Targets& own) {
         const bool stuck = member.done.stuck && !own.goal.met(*state_);
         if (member.done.stuck && !stuck) met = own.met(faces());
@@ -100,7 +100,7 @@ class Sharing {
         for (const auto& s : sharers_) vertices_given_ += s->uses * s->vertices();
     }
 
-    /// Collapses until the target is met. ratio: of the settings, or of a level.
+    /// Collapses until the target is met. ratio: the ratio of the settings, or of a level.
     void go(std::optional<double> ratio) {
         const Targets targets = targets_of(ratio);
         std::size_t faces = 0, vertices = 0;

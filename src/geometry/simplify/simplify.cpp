@@ -14,8 +14,8 @@ using Stop = SimplifyResult::Stop;
 using Method = SimplifySettings::Method;
 using Intersections = SimplifySettings::Intersections;
 
-constexpr int max_rounds = 16;    // of limiting intersecting faces; three or four are usual
-constexpr int gentle_rounds = 10; // before all collapses at intersecting faces are blocked
+constexpr int max_rounds = 16;    // rounds of limiting intersecting faces; three or four are usual
+constexpr int gentle_rounds = 10; // rounds before all collapses at intersecting faces are blocked
 
 Ended run_to(State s, const CoincidentBorders* borders, const Goal& goal) {
     Ended end;
@@ -35,7 +35,7 @@ Ended run(State s, const SimplifyInput& subject, Goal goal, const SimplifySettin
     if (settings.method == Method::constrained)
         return run_constrained(std::move(s), subject.mesh().vertex_count(), goal, settings.constraints);
     if (!settings.max_error) return run_to(std::move(s), subject.borders(), goal);
-    if (goal.vertices > 0 && subject.borders()) // as if no border got shorter
+    if (goal.vertices > 0 && subject.borders()) // assumes that no border got shorter
         goal.vertices -= std::min(goal.vertices - 1, subject.borders()->doubled(s));
     return run_within(std::move(s), subject.mesh(), goal, *settings.max_error, settings.samples);
 }

@@ -31,39 +31,41 @@ struct SimplifyLocks {
 
 /// Limits for each collapse of the method constrained; 0 disables a constraint.
 struct SimplifyConstraints {
-    double least_cosine = 0.5; ///< of the angle between a face's normal and its original normal
+    double least_cosine = 0.5; ///< least cosine of the angle between a face's normal and its original normal
     double aspect_ratio =
         0; ///< no face gets a larger ratio (mesh/aspect_ratio.hpp), unless a face was already worse
     double roundness = 0; ///< no face gets a smaller value: 1 for an equilateral triangle, 0 for a flat one
-    double hausdorff = 0; ///< no removed vertex is farther from the faces near by, in the mesh's units
+    double hausdorff =
+        0; ///< no removed vertex is farther than this from the nearby faces, in the mesh's units
 };
 
 /// The weights of attributes in the error of the quadric methods; 0 ignores an attribute.
 struct AttributeWeights {
-    /// UV sets: a texture that slides by a length counts as much as `uv` times a surface that is off by the
-    /// same length.
+    /// UV sets: a texture that slides by a length counts as much as a surface that is off by `uv` times this
+    /// length.
     double uv = 0.5;
     // A difference of 1 counts as much as a surface that is off by the weight times 1 % of the diagonal.
-    double normal = 0.1; ///< of unit vectors
-    double colour = 1;   ///< of full intensity
-    double skin = 1;     ///< of skin weights: the full influence of a joint
+    double normal = 0.1; ///< weight of unit normals
+    double colour = 1;   ///< weight of colours, where 1 is full intensity
+    double skin = 1;     ///< weight of skin weights, where 1 is the full influence of a joint
 };
 
 struct SimplifySettings {
     enum class Method {
         quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
-        quadric_endpoints, ///< like quadric, but the new vertex is one of the two ends: vertices are a subset
+        quadric_endpoints, ///< like quadric, but the new vertex is one of the two ends, so that vertices are
+                           ///< a subset of the input's
         constrained,       ///< OpenMesh's decimater: quadric, endpoints only, under SimplifyConstraints
         shortest_edge,     ///< the shortest edge is collapsed to its midpoint
-        cluster,           ///< merges the vertices in each cell of a grid: for previews, topology is not kept
+        cluster, ///< merges the vertices in each cell of a grid; for previews, because topology is not kept
     };
     enum class Topology {
         keep,  ///< genus, components and boundary loops stay
         allow, ///< components may vanish, holes close, and handles be pinched off
     };
     enum class Intersections {
-        ignore, ///< not looked for
-        count,  ///< counted before and after
+        ignore, ///< self-intersections are not searched
+        count,  ///< self-intersections are counted before and after
         avoid,  ///< no more intersecting pairs of faces than in the input
     };
     Method method = Method::quadric;
@@ -75,15 +77,15 @@ struct SimplifySettings {
     /// In radians: the angle for merge_normal_seams (0: every normal seam stays), and for corners of
     /// boundaries with shortest_edge.
     double feature_angle = 30 * pi / 180;
-    // At least one target; the first one met stops the work.
+    // At least one target must be given. The first target that is met stops the work.
     std::optional<double> ratio =
-        {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
-    std::optional<std::size_t> faces = {};    ///< at most so many triangles
-    std::optional<std::size_t> vertices = {}; ///< at most so many vertices
+        {}; ///< share of the input triangles, 0 < ratio <= 1; the count is rounded up
+    std::optional<std::size_t> faces = {};    ///< the maximum number of triangles
+    std::optional<std::size_t> vertices = {}; ///< the maximum number of vertices
     /// The deviation from the input mesh, measured in both directions (geometry/deviation/deviation.hpp, its
     /// seed), stays within this bound. In the mesh's units.
     std::optional<double> max_error = {};
-    std::size_t samples = 100000; ///< in each direction, for judging max_error
+    std::size_t samples = 100000; ///< samples in each direction, to measure max_error
     /// For quadric and quadric-endpoints: no collapse has a larger error (see SimplifyResult::largest_error).
     /// In the mesh's units.
     std::optional<double> max_quadric_error = {};
@@ -94,9 +96,9 @@ struct SimplifySettings {
 struct SimplifyResult {
     enum class Stop {
         nothing,           ///< the mesh already met every target: it is returned unchanged
-        ratio,             ///< met
-        faces,             ///< met
-        vertices,          ///< met
+        ratio,             ///< the ratio was met
+        faces,             ///< the target number of faces was met
+        vertices,          ///< the target number of vertices was met
         max_error,         ///< any further collapse would deviate too much
         max_quadric_error, ///< any further collapse would have a larger error
         stuck,             ///< every remaining collapse would break a guarantee
@@ -117,22 +119,22 @@ struct SimplifyResult {
     /// numbered among the vertices that faces used. Empty unless single vertices are locked.
     std::vector<Index> sources = {};
     Stop stop = Stop::nothing;
-    bool unchanged = false; ///< no collapse was made: the mesh equals the input
+    bool unchanged = false; ///< no edge was collapsed, so the mesh equals the input
     Blocked blocked;
     NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< how normal seams were handled
-    std::size_t merged_wedges = 0;                                 ///< merged along normal seams
-    /// Faces reversed during the work, so that neighbours agree; in `mesh` they have their original
+    std::size_t merged_wedges = 0;                                 ///< wedges merged along normal seams
+    /// Faces reversed during the work, so that neighbours agree. In `mesh` they have their original
     /// orientation.
     std::size_t turned = 0;
-    std::size_t faces_given = 0;                         ///< in the input, polygons too
-    std::size_t faces_before = 0, faces_after = 0;       ///< triangles
-    std::size_t vertices_before = 0, vertices_after = 0; ///< used by faces
+    std::size_t faces_given = 0;                         ///< faces of the input, including polygons
+    std::size_t faces_before = 0, faces_after = 0;       ///< triangle counts
+    std::size_t vertices_before = 0, vertices_after = 0; ///< vertices that faces use
     std::size_t collapses = 0;                           ///< the collapses that the mesh includes
-    std::size_t rolled_back = 0;                         ///< undone because of max_error
-    std::size_t measurements = 0;                        ///< needed for max_error
-    std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
-    std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
-    std::size_t held = 0; ///< vertices with a lower error limit, to avoid self-intersections
+    std::size_t rolled_back = 0;                         ///< collapses undone because of max_error
+    std::size_t measurements = 0;                        ///< measurements made for max_error
+    std::optional<double> measured; ///< the deviation if max_error was given, in the mesh's units
+    std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< counts, if requested
+    std::size_t held = 0; ///< vertices whose error limit was lowered to avoid self-intersections
     std::size_t passes = 0;
     /// In the mesh's units. quadric and cluster: the largest distance at any collapse, as the root mean
     /// square over the planes of a new vertex. shortest-edge: half the longest collapsed edge. constrained:
@@ -141,8 +143,8 @@ struct SimplifyResult {
     std::optional<double> cell; ///< cluster: the edge length of the grid's cells, in the mesh's units
 };
 
-/// Simplifies a mesh. Has no preconditions: open, non-manifold and degenerate input is accepted. Non-manifold
-/// vertices stay, with all edges between them.
+/// Simplifies a mesh. Has no preconditions: open, non-manifold and degenerate input is accepted.
+/// Non-manifold vertices stay, with all edges between them.
 ///
 /// First, polygons are triangulated, unused vertices dropped, and normal-only seams merged
 /// (merge_normal_seams). Where neighbours disagree, faces are reversed during the work (not for cluster) and
@@ -151,10 +153,10 @@ struct SimplifyResult {
 /// Guarantees: every collapse satisfies the link condition, so manifoldness, closedness, the genus and the
 /// numbers of components and boundary loops stay. A closed component keeps at least four faces. No collapse
 /// turns a face by more than 60 degrees, or makes a face degenerate or double. Boundaries, UV and normal
-/// seams, and borders of primitives and groups collapse only along themselves. Their ends and crossings stay;
-/// with shortest_edge also the boundary corners sharper than the feature angle. Unmoved vertices keep their
-/// exact position. Coincident borders collapse as the two sides of a seam (quadric, quadric-endpoints and
-/// shortest-edge).
+/// seams, and borders of primitives and groups collapse only along themselves. Their ends and crossings
+/// stay; with shortest_edge also the boundary corners sharper than the feature angle. Unmoved vertices keep
+/// their exact position. Coincident borders collapse as the two sides of a seam (quadric, quadric-endpoints
+/// and shortest-edge).
 ///
 /// max_error: bounds the measured deviation. Points of the input surface are followed during the collapses
 /// (bounds.cpp). If the final deviation exceeds the bound, the log of collapses is cut by bisection. Every
@@ -178,9 +180,9 @@ struct SimplifyResult {
 /// (attributes.hpp). Weights add the attribute error to the quadrics (H. Hoppe, 'New quadric metric for
 /// simplifying meshes with appearance attributes', 1999). The result is in Morton order.
 ///
-/// Errors: usage for the first refusal of check_simplify_settings. About O(n log n), parallel; the same bytes
-/// for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric error
-/// metrics' (1997).
+/// Throws the first refusal of check_simplify_settings as a usage error. About O(n log n), parallel; the
+/// same bytes for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using
+/// quadric error metrics' (1997).
 [[nodiscard]] SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 
 /// All settings that simplify refuses, in its order of reporting. First come settings that exclude each other
@@ -197,7 +199,7 @@ struct SimplifyResult {
 /// Like check_simplify_settings, for simplify_levels.
 [[nodiscard]] std::vector<Refusal> check_simplify_levels(const SimplifySettings& settings);
 
-// The parts of a scene, with a common target.
+// Simplifying the parts of a scene with a common target.
 
 /// The first conflict (E-CONFLICT) of settings with a shared target; thrown before the refusals of
 /// check_simplify_settings.
@@ -212,7 +214,7 @@ struct SimplifyPartsSettings {
     bool by_error = true;
     std::optional<double> max_of_diagonal = {}; ///< max_quadric_error as a fraction of each part's diagonal
     bool measure = true, certify = false;       ///< the deviation, and a guaranteed bound of it
-    std::function<SurfaceSize(std::size_t part)> size_before; ///< in the world, of an input part
+    std::function<SurfaceSize(std::size_t part)> size_before; ///< world size of an input part
 };
 
 /// A simplified part, or one of its levels.
@@ -220,7 +222,7 @@ struct SimplifiedPart {
     /// The size of a surface.
     struct Size {
         double area = 0;
-        std::optional<double> volume; ///< when closed
+        std::optional<double> volume; ///< the volume, if the surface is closed
     };
     struct Topology {
         Properties before, after;
@@ -229,15 +231,15 @@ struct SimplifiedPart {
     struct Sizes {
         Size before, after;
     };
-    SimplifyResult result;                     ///< without its mesh in reports
-    double scale = 1;                          ///< from lengths in the part's space to the scene's
+    SimplifyResult result;                     ///< reports get it without its mesh
+    double scale = 1;                          ///< scale of lengths from the part's space to the scene's
     std::optional<double> max_quadric_error{}; ///< the limit, in scene units
     std::string part;
     std::optional<std::vector<std::string>> joint_with;
-    std::optional<Topology> topology; ///< for methods that may change it
-    std::optional<Sizes> sizes;       ///< when measured
+    std::optional<Topology> topology; ///< the topology, for methods that may change it
+    std::optional<Sizes> sizes;       ///< the sizes, if measured
     std::optional<DeviationResult> deviation;
-    std::optional<SurfaceSize> surface{}; ///< when this part itself was measured
+    std::optional<SurfaceSize> surface{}; ///< set if this part itself was measured
 };
 
 /// Simplifies the selected parts one by one, and passes on the levels of each (one entry without levels).
@@ -247,7 +249,7 @@ struct SimplifiedPart {
 void simplify_parts(Scene& scene, const SimplifyPartsSettings& settings,
                     const std::function<void(std::size_t part, std::vector<SimplifiedPart> levels)>& take);
 
-/// Triangles after triangulation, and vertices.
+/// Counts of triangles (after triangulation) and vertices.
 struct MeshCounts {
     std::size_t triangles = 0, vertices = 0;
 };

@@ -23,7 +23,7 @@ struct Keyed {
     Index item;
 };
 
-/// The used vertices, along the curve.
+/// The used vertices in the order of the Morton curve.
 std::vector<Keyed> ordered_vertices(const Mesh& mesh, const UsedVertices& used, const Frame& frame) {
     std::vector<Keyed> order;
     reserve_large(order, used.count);
@@ -34,7 +34,7 @@ std::vector<Keyed> ordered_vertices(const Mesh& mesh, const UsedVertices& used, 
         const auto cell = [](double x) {
             return spread(static_cast<std::uint64_t>(std::clamp((x + 1) * 1024, 0.0, 2047.0)));
         };
-        const std::uint64_t code = cell(p.x) | (cell(p.y) << 1) | (cell(p.z) << 2); // 33 bits
+        const std::uint64_t code = cell(p.x) | (cell(p.y) << 1) | (cell(p.z) << 2); // a code of 33 bits
         order[i].key = static_cast<std::uint32_t>(code >> 1);
     });
     radix_sort(
@@ -42,7 +42,7 @@ std::vector<Keyed> ordered_vertices(const Mesh& mesh, const UsedVertices& used, 
     return order;
 }
 
-/// Faces by their first vertex along the curve.
+/// The faces, in the order of their first vertex on the curve.
 std::vector<Keyed> ordered_faces(const Mesh& mesh, const std::vector<Index>& rank, std::size_t vertices) {
     std::vector<Keyed> order;
     resize_large(order, mesh.face_count());
@@ -64,7 +64,7 @@ Frame frame_of(const Mesh& mesh) {
     const Vec3 half = box.max * 0.5 - box.min * 0.5;
     int exponent = 0;
     std::frexp(std::max({half.x, half.y, half.z}), &exponent);
-    // Halving the sum of the corners instead could overflow.
+    // Halving the sum of the corners could overflow instead.
     return {box.min * 0.5 + box.max * 0.5, std::ldexp(1.0, std::clamp(-exponent, -1000, 1000))};
 }
 

@@ -23,7 +23,7 @@ enum class Kind : std::uint8_t {
     pinned, ///< not manifold: stays like a corner, and so do the edges between two of them
 };
 
-// Bits per corner.
+// Flag bits of a corner.
 inline constexpr std::uint8_t boundary_edge = 1, feature_edge = 2; ///< a boundary edge is a feature edge too
 inline constexpr std::uint8_t blocked_border = 4, blocked_topology = 8, blocked_flip = 16, blocked_error = 32;
 inline constexpr std::uint8_t blocked = blocked_border | blocked_topology | blocked_flip | blocked_error;
@@ -46,7 +46,7 @@ struct Shape {
     std::vector<Index> tri{};          ///< [3 faces] vertices
     std::vector<Index> wedge{};        ///< [3 faces] wedges of the input; empty without seams, as in a mesh
     std::vector<Index> face_source{};  ///< [faces] face of the input
-    std::vector<Vec3> at{};            ///< [vertices] in the frame
+    std::vector<Vec3> at{};            ///< [vertices] position in the frame
     std::vector<Index> source{};       ///< [vertices] vertex of the input
     std::vector<std::uint8_t> moved{}; ///< [vertices] 1 when `at` is not the input's position
 
@@ -55,14 +55,14 @@ struct Shape {
     bool has_seams() const { return !wedge.empty(); }
 };
 
-/// A collapse: b merged into a, which moved to `to` (in the frame). Vertices of the input.
+/// A collapse: vertex b of the input merged into vertex a, which moved to `to` (in the frame).
 struct Step {
     Index a, b;
     Index wedges; ///< merges of wedges so far, including this step
-    float error;  ///< squared, as estimated, in the frame
+    float error;  ///< estimated squared error, in the frame
     Vec3 to;
 };
-/// b merged into a. Elements of the input.
+/// An element b of the input that merged into an element a.
 struct Merge {
     Index a, b;
 };
@@ -95,10 +95,10 @@ struct FollowedPoints {
     /// Squared, in the frame: the allowed distance from a point to the faces around it. It also limits the
     /// distance from new vertices and sample points on faces to the input surface.
     double farthest = 0;
-    std::size_t vertices = 0;       ///< of the input surface
+    std::size_t vertices = 0;       ///< vertices of the input surface
     std::vector<Index> triangles{}; ///< [input faces] index in the tree's order
     std::vector<Point> points{};    ///< the vertices, then the centres of the faces
-    std::vector<Index> first{};     ///< [faces] or none
+    std::vector<Index> first{};     ///< [faces] first point of the face, or none
 };
 
 /// The settings that apply to every collapse.
@@ -124,7 +124,7 @@ struct Edges {
 
 /// How features restrict the vertices.
 struct Features {
-    std::vector<Kind> kind; ///< [vertices]
+    std::vector<Kind> kind; ///< [vertices] kinds
     bool any = false;       ///< edges are flagged
     /// [wedges] with coincident borders: the vertex of each wedge before they were joined. Two sides never
     /// merge into the same wedge; otherwise a slit could close.
@@ -133,9 +133,9 @@ struct Features {
 
 /// The cost of collapses, from the planes that each vertex represents.
 struct QuadricCost {
-    std::vector<NearQuadric> near; ///< [vertices]
+    std::vector<NearQuadric> near; ///< [vertices] quadrics in single precision
     std::optional<std::vector<FineQuadric>>
-        fine; ///< [vertices] the same in double precision; if much is nearly flat
+        fine; ///< [vertices] quadrics in double precision, if much of the surface is nearly flat
     std::optional<AttributeError> attributes; ///< empty: attributes have no weight
 };
 
@@ -152,7 +152,7 @@ struct Bounds {
     double max_squared_error = HUGE_VAL; ///< no collapse has a larger squared error
     std::optional<std::vector<float>>
         limits; ///< [vertices] squared error that collapses at the vertex stay below
-    std::optional<FollowedPoints> followed; ///< with max_error
+    std::optional<FollowedPoints> followed; ///< set with max_error
 };
 
 struct State : Shape {
@@ -163,7 +163,7 @@ struct State : Shape {
     Order order;
     Rules rules;
     Bounds bounds;
-    std::optional<Log> log; ///< when attributes or a rollback need it
+    std::optional<Log> log; ///< set if attributes or a rollback need it
 
     bool live(Index f) const { return tri[3 * f] != none; }
     /// True if attributes contribute to the costs.

@@ -12,7 +12,7 @@ void throw_first(const std::vector<Refusal>& refusals);
 /// The face count for a ratio: rounded up, so that 10% of 15 faces is 2.
 [[nodiscard]] std::size_t share_of(std::size_t faces, double ratio);
 
-/// The targets of a mesh, or the total targets of several.
+/// The targets of a mesh, or the total targets of several meshes.
 struct Targets {
     Goal goal;
     std::size_t by_ratio = 0, by_faces = 0;
@@ -32,8 +32,8 @@ struct Targets {
 /// collapses.)
 [[nodiscard]] SimplifyResult::Stop stuck_by(const SimplifyResult::Blocked& blocked);
 
-/// Like run_passes, but counts vertices as after coincident borders are separated again. borders: of each
-/// member; null if it has none.
+/// Like run_passes, but counts vertices as after coincident borders are separated again. borders: the
+/// borders of each member; null if it has none.
 void run_passes_separate(std::span<Member> members, std::span<const CoincidentBorders* const> borders,
                          Goal goal);
 

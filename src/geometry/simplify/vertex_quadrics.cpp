@@ -12,7 +12,7 @@ namespace {
 constexpr double boundary_weight = 10, feature_weight = 1;
 // The edges of a sample of about this many faces decide whether fine quadrics are worth their time.
 constexpr std::size_t flat_sample = 1 << 12;
-constexpr double flat_share = 1.0 / 16; // of the sampled edges
+constexpr double flat_share = 1.0 / 16; // share of the sampled edges
 // Squared errors below this share of an edge's squared length are lost in the rounding of single precision.
 constexpr double invisible = 1e-7;
 
@@ -20,7 +20,7 @@ constexpr double invisible = 1e-7;
 /// undefined.
 Vec3 root_normal(const State& s, Index f) {
     const Vec3 &p = s.at[s.tri[3 * f]], &q = s.at[s.tri[3 * f + 1]], &r = s.at[s.tri[3 * f + 2]];
-    const Vec3 n = cross(q - p, r - p); // length: twice the area
+    const Vec3 n = cross(q - p, r - p); // a vector whose length is twice the area
     const double twice = length(n);
     const double longest = std::max({dot(q - p, q - p), dot(r - q, r - q), dot(p - r, p - r)});
     return twice > least_height * longest ? n / std::sqrt(2 * twice) : Vec3{};
@@ -76,8 +76,8 @@ const FoldCorner* next_with_area(const std::vector<FoldCorner>& corners, Index o
     return nullptr;
 }
 
-/// Where neighbouring faces at v fold back on each other, their planes barely hold the fold (not at all at a
-/// full turn), although the surface ends there. The fold is then held like the boundary of a sheet. The
+/// If neighbouring faces at v fold back on each other, their planes barely hold the fold (not at all at a
+/// full turn), although the surface ends at it. The fold is then held like the boundary of a sheet. The
 /// weight compensates for the missing constraint: the cosine of the angle between the faces.
 void add_folds(Quadric& q, const State& s, Index v, const std::vector<Vec3>& normals) {
     std::vector<FoldCorner> corners;

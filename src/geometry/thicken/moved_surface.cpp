@@ -15,9 +15,6 @@ namespace facetmill {
 
 namespace {
 
-/// The largest share of a face's area that can result from rounding its corners.
-constexpr double rounding = 0x1p-40;
-
 /// The triangle's map: its determinant and trace, times twice the triangle's area squared.
 bool is_turned(const Vec3& u, const Vec3& v, const Vec3& moved_u, const Vec3& moved_v) {
     const Vec3 normal = cross(u, v);
@@ -25,7 +22,7 @@ bool is_turned(const Vec3& u, const Vec3& v, const Vec3& moved_u, const Vec3& mo
     if (!(whole > 0)) return false;
     const double determinant = dot(normal, cross(moved_u, moved_v));
     const double trace = dot(normal, cross(u, moved_v) + cross(moved_u, v));
-    return determinant <= rounding * whole || trace <= rounding * whole;
+    return determinant <= collapse_rounding * whole || trace <= collapse_rounding * whole;
 }
 
 /// A cube of the search, and an upper bound for the distance of its points to the surface.
@@ -58,7 +55,7 @@ class RoomSearch {
     }
 
   private:
-    static constexpr int max_cells = 12'500; // each is divided into eight
+    static constexpr int max_cells = 12'500; // each division makes eight cells
 
     /// True when the middle of the cell has room; queues the cell if another point may have.
     bool look_at(Cell cell) {
@@ -126,7 +123,7 @@ std::vector<std::uint8_t> vanished_components(const Mesh& mesh, const std::vecto
     meshes.pop_back();
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         if (distance > 0)
-            reverse_faces(meshes[i]); // a move outward shrinks the space in front of the surface
+            reverse_faces(meshes[i]); // moving outward shrinks the space in front of the surface
         const auto solid = measure_mass(meshes[i]).solid;
         gone[i] = solid && solid->volume > 0 && room_inside(meshes[i], std::abs(distance)) == Room::none;
     }

@@ -1,12 +1,14 @@
 #include "geometry/thicken/resolve.hpp"
 
 #include "geometry/boolean/combine.hpp"
+#include "geometry/edit/redrawn_faces.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "geometry/thicken/moved_surface.hpp"
+#include "geometry/thicken/redrawn_flats.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
-#include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +33,8 @@ std::optional<CombineResult> combined(std::vector<Mesh> meshes, CombineOperation
     return r;
 }
 
-/// Removes small pieces that remain of folds: solids or cavities with less volume than a cube of that side
-/// (in world).
+/// Removes small remains of folds: solids or cavities with less volume than a cube with this side (in the
+/// world).
 void drop_small_pieces(Mesh& mesh, const Transform& to_world, double side) {
     const Components pieces = face_components(mesh, false);
     const std::vector<double> six = six_volumes(mesh, pieces);
@@ -70,10 +72,21 @@ class Resolver {
   private:
     /// The surface moved by a distance, without the absent faces.
     Mesh moved(double distance, const std::vector<std::uint8_t>& absent) const {
-        Mesh mesh = moves_.surface;
-        parallel_for(mesh.positions.size(),
-                     [&](std::size_t v) { mesh.positions[v] += moves_.of_vertex[v] * distance; });
-        return absent.empty() ? mesh : keep_faces(mesh, faces_without(absent));
+        const Mesh& from = moves_.surface;
+        std::vector<Vec3> positions = moved_positions(from, moves_.of_vertex, distance);
+        std::vector<std::uint8_t> turned = turned_faces(from, positions);
+        const RedrawnFlats flats = redrawn_flats(from, positions, turned);
+        RedrawnFaces redrawn(from);
+        for_each_face(from, flats, [&](std::span<const Index> wedges, Index source) {
+            if (!absent.empty() && absent[source]) return;
+            redrawn.mesh.corners.insert(redrawn.mesh.corners.end(), wedges.begin(), wedges.end());
+            redrawn.end_face(source);
+        });
+        normalise_offsets(redrawn.mesh);
+        inherit_attributes(redrawn.mesh, from, redrawn.provenance);
+        redrawn.mesh.positions = std::move(positions);
+        drop_unused(redrawn.mesh);
+        return std::move(redrawn.mesh);
     }
 
     std::optional<Side> side(double distance, const std::vector<std::uint8_t>& absent,

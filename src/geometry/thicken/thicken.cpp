@@ -9,6 +9,7 @@
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"
 #include "geometry/thicken/moved_surface.hpp"
+#include "geometry/thicken/redrawn_flats.hpp"
 #include "geometry/thicken/resolve.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
@@ -33,12 +34,12 @@ namespace {
 /// The surface and its back. The back of face f is face f + face_count, and the back of wedge w is w +
 /// wedge_count.
 struct Doubled {
-    Mesh mesh;                 ///< with explicit wedge_vertex, without attributes
+    Mesh mesh;                 ///< has an explicit wedge_vertex, and no attributes
     MeshProvenance provenance; ///< complete for these faces; callers extend it
 };
 
-/// back_vertex: each vertex's counterpart on the back. This is the vertex itself or a new vertex, numbered
-/// from the vertex count on. New vertices are copies of back_copies.
+/// back_vertex: the counterpart of each vertex on the back, either the vertex itself or a new vertex
+/// numbered from the vertex count on. New vertices are copies of back_copies.
 Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
                 const std::vector<Index>& back_copies) {
     Doubled d;
@@ -82,7 +83,7 @@ void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
     }
 }
 
-/// boundary_edges, sorted by corner.
+/// Returns boundary_edges, sorted by corner.
 std::vector<BoundaryEdge> boundary_by_corner(const Mesh& mesh) {
     auto edges = boundary_edges(mesh);
     std::sort(edges.begin(), edges.end(),
@@ -120,7 +121,7 @@ struct System {
     }
 };
 
-/// The angle of face f at corner c, in world.
+/// The angle of face f at corner c, in the world.
 double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
     const Vec3 u = to_world.vector(mesh.point(previous_corner(mesh, f, c)) - mesh.point(c)),
                v = to_world.vector(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
@@ -128,7 +129,7 @@ double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
 }
 
 struct Directions {
-    std::vector<Vec3> of_vertex; ///< the move of a vertex for a distance of 1 in world
+    std::vector<Vec3> of_vertex; ///< the vertex moves for a distance of 1 in the world
     std::size_t limited = 0, still = 0;
 };
 
@@ -208,8 +209,8 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
 /// The side of a face in the solid.
 enum class Face : std::uint8_t { front, back, neither };
 
-/// World distances to the back faces, from the vertices and centres of the front faces. face: [faces],
-/// neither for other faces.
+/// Measures world distances from the vertices and centres of front faces to the back faces. face: [faces]
+/// the side of each face.
 std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Transform& to_world,
                                            const std::vector<Face>& face) {
     Mesh back;
@@ -240,7 +241,7 @@ std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Transform& t
     return ThickenResult::Wall{least, sum / static_cast<double>(count)};
 }
 
-/// The diagonal of the box around all vertices, in world.
+/// The diagonal of the box around all vertices, in the world.
 double size_of(const Mesh& mesh, const Transform& to_world) {
     Box box;
     for (const Vec3& p : mesh.positions) box.add(to_world.point(p));
@@ -261,60 +262,105 @@ std::size_t unbalanced_edges(const Mesh& mesh, const EdgeTable& edges) {
 /// The effects of a move along the normals on the surface's faces, in world space.
 struct Moved {
     std::vector<std::uint8_t> turned, vanished; ///< [faces], or empty for no move
+    RedrawnFlats flats;
 };
 
-/// Measures the move of the surface to the solid's positions. They begin at vertex `first` of the solid.
-Moved moved_to(const Mesh& solid, Index first, double distance, const Mesh& surface,
+Moved moved_by(const Mesh& surface, const std::vector<Vec3>& ways, double distance,
                const Transform& to_world) {
     if (distance == 0) return {};
     Mesh from = bare(surface);
-    std::vector<Vec3> to(from.positions.size());
+    const std::vector<Vec3> moved = moved_positions(surface, ways, distance);
+    std::vector<Vec3> to(moved.size());
     parallel_for(to.size(), [&](std::size_t v) {
-        from.positions[v] = to_world.point(from.positions[v]);
-        to[v] = to_world.point(solid.positions[first + v]);
+        from.positions[v] = to_world.point(surface.positions[v]);
+        to[v] = to_world.point(moved[v]);
     });
     Moved m;
     m.turned = turned_faces(from, to);
+    m.flats = redrawn_flats(surface, moved, m.turned);
     const double along =
         to_world.determinant() < 0 ? -distance : distance; // mirrored faces have inward normals
     m.vanished = vanished_components(from, m.turned, along);
     return m;
 }
 
-/// Counts the turned faces and flags the vanished faces in `gone`, the range of the front or back faces.
-void judge(const Moved& moved, std::uint8_t* gone, const Mesh& surface, const Transform& to_world,
-           ThickenResult& r) {
+/// Counts the turned faces that did not vanish.
+void count_turned(const Moved& moved, const Mesh& surface, const Transform& to_world, ThickenResult& r) {
     for (Index f = 0; f < moved.turned.size(); ++f) {
-        gone[f] = moved.vanished[f];
         if (!moved.turned[f] || moved.vanished[f]) continue;
         if (r.turned++ == 0) r.first_turned = to_world.point(corner_mean(surface, f));
     }
 }
 
-/// Counts closed components of the solid that bound no material. No two components may intersect. A
-/// component is correct if the surface winds once around points on its inner side and not around its outer
-/// side.
+/// Replaces the faces of flat patches on both sides. Returns how many faces the front has. The doubled
+/// surface has no walls yet.
+std::size_t redraw(Doubled& d, const Mesh& surface, const RedrawnFlats& front, const RedrawnFlats& back) {
+    if (front.empty() && back.empty()) return surface.face_count();
+    const auto wedges = static_cast<Index>(surface.wedge_count());
+    std::vector<Index> ring;
+    d.mesh.corners.clear();
+    d.mesh.face_offsets = {0};
+    d.provenance.faces.clear();
+    const auto add = [&](Index source) {
+        d.mesh.corners.insert(d.mesh.corners.end(), ring.begin(), ring.end());
+        d.mesh.face_offsets.push_back(static_cast<Index>(d.mesh.corners.size()));
+        d.provenance.faces.push_back(source);
+    };
+    for_each_face(surface, front, [&](std::span<const Index> face, Index source) {
+        ring.assign(face.begin(), face.end());
+        add(source);
+    });
+    const std::size_t of_front = d.provenance.faces.size();
+    for_each_face(surface, back, [&](std::span<const Index> face, Index source) {
+        ring.assign(face.begin(), face.end());
+        std::reverse(ring.begin() + 1, ring.end());
+        for (Index& w : ring) w += wedges;
+        add(source);
+    });
+    normalise_offsets(d.mesh);
+    return of_front;
+}
+
+/// [components] A point within a face of each: the centre of its largest triangle. Components that only
+/// touch meet at edges, so no other component passes through the point.
+std::vector<Vec3> points_within_faces(const Surface& surface, const Components& components) {
+    std::vector<Vec3> points(components.count);
+    std::vector<double> largest(components.count, -1);
+    for (std::size_t t = 0; t < surface.size(); ++t) {
+        const Vec3 &a = surface.point(t, 0), &b = surface.point(t, 1), &c = surface.point(t, 2);
+        const Index component = components.of_face[surface.face(t)];
+        const double size = length(cross(b - a, c - a));
+        if (!(size > largest[component])) continue;
+        largest[component] = size;
+        points[component] = (a + b + c) / 3;
+    }
+    return points;
+}
+
+/// Counts closed components of the solid that bound no material. No two components may intersect, but they
+/// may touch. A component is correct if the surface winds once around points on its inner side and not
+/// around its outer side.
 std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
     const Components components = face_components(solid, edges);
     if (components.count < 2) return 0;
-    std::vector<Index> first(components.count, none);
-    for (Index f = static_cast<Index>(solid.face_count()); f-- > 0;) first[components.of_face[f]] = f;
     const std::vector<double> volume = six_volumes(solid, components);
-    const FaceTree rays(surface_of(solid), FaceTree::Use::rays);
+    const Surface surface = surface_of(solid);
+    const std::vector<Vec3> points = points_within_faces(surface, components);
+    const FaceTree rays(surface, FaceTree::Use::rays);
     std::vector<std::uint8_t> buried(components.count, 0);
     parallel_for(
         buried.size(),
         [&](std::size_t p) {
             int around = 0;
-            visit_along_axis(rays, solid.point(solid.face_begin(first[p])), 0, true,
+            visit_along_axis(rays, points[p], 0, true,
                              [&](Index f, int way) { around += components.of_face[f] == p ? 0 : way; });
             buried[p] = around != (volume[p] < 0 ? 1 : 0);
         },
-        64); // one ray each
+        64); // one ray per component
     return static_cast<std::size_t>(std::count(buried.begin(), buried.end(), 1));
 }
 
-/// How many components have flagged faces.
+/// The number of components with flagged faces.
 std::size_t components_of(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     const Components components = face_components(mesh, false);
     std::vector<std::uint8_t> has(components.count, 0);
@@ -343,45 +389,71 @@ void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, T
     r.self_intersections = find_self_intersections(d.mesh, {.limit = 0, .separate_touching = true}).count;
 }
 
-/// Finds the defects of the solid. Removes the vanished sides of closed components, so that their other
-/// sides bound filled solids.
-void settle(Doubled& d, const Mesh& surface, const std::vector<Vec3>& ways, const ThickenSettings& s,
-            double out, ThickenResult& r) {
-    const std::size_t faces = surface.face_count();
-    std::vector<std::uint8_t> gone(d.mesh.face_count(), 0), filled(faces, 0);
-    judge(moved_to(d.mesh, 0, out, surface, s.to_world), gone.data(), surface, s.to_world, r);
-    const auto behind = static_cast<Index>(surface.vertex_count());
-    judge(moved_to(d.mesh, behind, out - s.thickness, surface, s.to_world), gone.data() + faces, surface,
-          s.to_world, r);
-    for (std::size_t f = 0; f < faces; ++f) filled[f] = gone[f] | gone[faces + f];
-    std::vector<Face> face(2 * faces, Face::neither);
-    for (std::size_t f = 0; f < faces; ++f)
-        if (!filled[f]) {
-            face[f] = Face::front;
-            face[faces + f] = Face::back;
+/// The two sides of a solid whose faces are those of the front, of the back, and walls, in this order.
+struct Sides {
+    Moved front, back;
+    std::size_t front_faces = 0, back_faces = 0;
+
+    /// [faces of the solid] 1 for faces of vanished components of their side.
+    std::vector<std::uint8_t> gone(const Doubled& d) const {
+        std::vector<std::uint8_t> flags(d.mesh.face_count(), 0);
+        for (std::size_t f = 0; f < front_faces + back_faces; ++f) {
+            const auto& vanished = (f < front_faces ? front : back).vanished;
+            if (!vanished.empty()) flags[f] = vanished[d.provenance.faces[f]];
         }
+        return flags;
+    }
+    /// [faces of the surface] 1 if a side vanished.
+    std::vector<std::uint8_t> filled(std::size_t faces) const {
+        std::vector<std::uint8_t> flags(faces, 0);
+        for (const auto* vanished : {&front.vanished, &back.vanished})
+            for (std::size_t f = 0; f < vanished->size(); ++f) flags[f] |= (*vanished)[f];
+        return flags;
+    }
+};
+
+/// Whether the wall can be searched for self-intersections. Removes the vanished sides of closed components,
+/// so that their other sides bound filled solids, and measures the wall.
+bool settle_vanished(Doubled& d, const Mesh& surface, const ThickenSettings& s, const Sides& sides,
+                     ThickenResult& r) {
+    const std::vector<std::uint8_t> gone = sides.gone(d), filled = sides.filled(surface.face_count());
+    std::vector<Face> face(sides.front_faces + sides.back_faces, Face::neither);
+    for (std::size_t f = 0; f < face.size(); ++f)
+        if (!filled[d.provenance.faces[f]]) face[f] = f < sides.front_faces ? Face::front : Face::back;
     r.wall = measure(d.mesh, s.to_world, face);
-    const bool any = std::find(filled.begin(), filled.end(), 1) != filled.end();
-    if (any) {
+    if (std::find(filled.begin(), filled.end(), 1) != filled.end()) {
         r.filled = components_of(surface, filled);
         d.mesh = keep_faces(d.mesh, faces_without(gone));
     }
+    return s.self_intersections && !(r.wall && s.thickness > size_of(surface, s.to_world));
+}
+
+/// Finds the defects of the solid, and resolves them on request.
+void settle(Doubled& d, const Mesh& surface, const std::vector<Vec3>& ways, const ThickenSettings& s,
+            double out, Sides sides, ThickenResult& r) {
+    count_turned(sides.front, surface, s.to_world, r);
+    count_turned(sides.back, surface, s.to_world, r);
+    const bool searches = settle_vanished(d, surface, s, sides, r);
     const EdgeTable edges = build_edges(d.mesh);
     r.unbalanced = unbalanced_edges(d.mesh, edges);
-    if (!s.self_intersections || (r.wall && s.thickness > size_of(surface, s.to_world))) return;
-    r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
+    if (!searches) return;
+    r.self_intersections = find_self_intersections(d.mesh, {.limit = 0, .separate_touching = true}).count;
     if (r.self_intersections == 0 && r.unbalanced == 0) r.buried = buried_components(d.mesh, edges);
     if (!s.resolve || r.unbalanced > 0 || (r.self_intersections == 0 && r.turned == 0 && r.buried == 0))
         return;
-    const auto back = gone.begin() + static_cast<std::ptrdiff_t>(faces);
     resolve(d,
-            {surface,
-             ways,
-             out,
-             s.thickness - out,
-             {gone.begin(), back},
-             {back, back + static_cast<std::ptrdiff_t>(faces)}},
+            {surface, ways, out, s.thickness - out, std::move(sides.front.vanished),
+             std::move(sides.back.vanished)},
             s.to_world, r);
+}
+
+/// [vertices of the solid] 1 for those that the surface's faces use, on either side.
+std::vector<std::uint8_t> vertices_of_faces(const Mesh& surface) {
+    const std::size_t n = surface.vertex_count();
+    std::vector<std::uint8_t> used(2 * n, 0);
+    for (Index c = 0; c < surface.corner_count(); ++c)
+        used[surface.vertex(c)] = used[n + surface.vertex(c)] = 1;
+    return used;
 }
 
 ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
@@ -392,11 +464,15 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
         back[v] = n + v;
         copies[v] = v;
     }
-    Doubled d = doubled(mesh, back, copies);
     const Directions ways = directions(mesh, s.miter_limit, s.to_world);
     const double out = s.side == ThickenSide::outward   ? s.thickness
                        : s.side == ThickenSide::centred ? s.thickness / 2
                                                         : 0;
+    Sides sides{moved_by(mesh, ways.of_vertex, out, s.to_world),
+                moved_by(mesh, ways.of_vertex, out - s.thickness, s.to_world)};
+    Doubled d = doubled(mesh, back, copies);
+    sides.front_faces = redraw(d, mesh, sides.front.flats, sides.back.flats);
+    sides.back_faces = d.provenance.faces.size() - sides.front_faces;
     parallel_for(n, [&](std::size_t v) {
         d.mesh.positions[v] += ways.of_vertex[v] * out;
         d.mesh.positions[n + v] += ways.of_vertex[v] * (out - s.thickness);
@@ -410,9 +486,10 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
         for (const auto& [w, normal] : wall_normals)
             for (int c = 0; c < 3; ++c) normals->set_value(w, c, normal[static_cast<std::size_t>(c)]);
     if (!mesh.has_seams() && wall_normals.empty()) d.mesh.wedge_vertex = {};
+    drop_unused(d.mesh, vertices_of_faces(mesh));
     r.limited = ways.limited;
     r.still = ways.still;
-    settle(d, mesh, ways.of_vertex, s, out, r);
+    settle(d, mesh, ways.of_vertex, s, out, std::move(sides), r);
     r.mesh = std::move(d.mesh);
     return r;
 }
@@ -434,7 +511,7 @@ ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
 
 namespace {
 
-/// Two directions that make a right-handed frame with the unit vector w.
+/// Two directions that form a right-handed frame with the unit vector w.
 std::array<Vec3, 2> across(const Vec3& w) {
     const double x = std::abs(w.x), y = std::abs(w.y), z = std::abs(w.z);
     const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -493,7 +570,7 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
         for (Index i = 0; i < n; ++i) *corner++ = first + n + i;
     });
     r.mesh.face_offsets.back() = static_cast<Index>(r.mesh.corners.size());
-    normalise_offsets(r.mesh); // for a mesh without edges
+    normalise_offsets(r.mesh); // needed for a mesh without edges
     return r;
 }
 
@@ -509,8 +586,8 @@ std::vector<Index> ring_of(const Mesh& mesh, const std::vector<Index>& place, In
     return ring;
 }
 
-/// Flags the faces with an opposite face at the same positions. Each face is the back of at most one other
-/// face.
+/// Flags the faces that have a reversed face at the same positions. Each face is the back of at most one
+/// other face.
 std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
     const auto place = lowest_at_place(mesh);
     std::vector<std::uint8_t> flags(mesh.face_count(), 0);

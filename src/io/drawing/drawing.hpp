@@ -1,5 +1,5 @@
 #pragma once
-// Drawings of plane sections, to scale: SVG, DXF and JSON.
+// Draws plane sections to scale as SVG, DXF and JSON.
 
 #include "base/json.hpp"
 #include "geometry/section/section.hpp"
@@ -14,12 +14,12 @@ namespace facetmill::io {
 struct DrawnPart {
     std::string name;
     Section section;
-    std::vector<polygon::Segment> hatch; ///< in the section's frame
+    std::vector<polygon::Segment> hatch; ///< hatching in the section's frame
 };
 
 /// The section of a single plane.
 struct Sheet {
-    double height = 0; ///< along the normal, from the given plane
+    double height = 0; ///< the distance from the given plane along the normal
     SectionFrame frame;
     std::vector<DrawnPart> parts;
 };
@@ -30,20 +30,21 @@ struct Drawing {
     std::vector<Sheet> sheets;
 };
 
-/// One group per sheet, arranged in rows, each in its plane's frame with v up. Sizes are in the scene's unit
-/// (mm if SVG lacks that unit), so that prints are to scale. Outlines and holes form a path with fill-rule
-/// nonzero.
+/// The SVG has one group per sheet, arranged in rows, in the frame of the sheet's plane with v up. Sizes are
+/// in the scene's unit (mm if SVG lacks that unit), so that prints are to scale. Outlines and holes form a
+/// path with fill-rule nonzero.
 [[nodiscard]] std::string to_svg(const Drawing& drawing);
 
-/// DXF release 12: closed polylines, one layer per sheet (SECTION_1, ... with HATCH_1, ...), elevated to the
-/// plane's height above the origin. Coordinates are in the plane's frame and the scene's unit, which
-/// $INSUNITS names.
+/// DXF release 12: closed polylines, elevated to the plane's height above the origin. Each sheet has a layer
+/// SECTION_n and a layer HATCH_n. Coordinates are in the plane's frame and the scene's unit, which $INSUNITS
+/// names.
 [[nodiscard]] std::string to_dxf(const Drawing& drawing);
 
 /// All points and measures: {unit, sections: [{height, frame, parts: [{name, contours, hatch}]}]}.
 [[nodiscard]] std::string to_json(const Drawing& drawing);
 
-/// By the file's extension: .svg, .dxf or .json. Throws usage (E-DRAWING) for others.
+/// The drawing in the format of the file's extension: .svg, .dxf or .json. Throws a usage error (E-DRAWING)
+/// for other extensions.
 [[nodiscard]] std::string drawing_for(const std::string& path, const Drawing& drawing);
 /// Whether drawing_for knows the extension.
 bool is_drawing(const std::string& path);

@@ -7,7 +7,7 @@ namespace {
 using Flat = std::array<double, 2>;
 Flat flat(const Vec2& p) { return {p.x, p.y}; }
 
-/// Moments and their section.
+/// A section or contour with moments.
 struct SectionMoments {
     const Section* section = nullptr;
     const polygon::Moments* moments = nullptr;
@@ -26,14 +26,14 @@ struct SectionContour {
     }
 };
 
-/// Second moments about a point: in the plane by P. Bourke, "Calculating the area and centroid of a polygon"
-/// (1988), in world space as integrals of products of coordinates.
+/// Second moments about a point. The moments in the plane follow P. Bourke, "Calculating the area and
+/// centroid of a polygon" (1988). The moments in world space are integrals of products of coordinates.
 struct MomentsAbout {
     polygon::SecondMoments plane;
     std::array<double, 6> world{}; ///< xx, yy, zz, xy, xz, yz
 };
 
-/// `point`: in world space, from the reference point to the centroid.
+/// `point`: the vector from the reference point to the centroid, in world space.
 MomentsAbout moments_about(const SectionMoments& of, const polygon::SecondMoments& plane, const Vec3& point) {
     const Vec3 &u = of.section->frame.u, &v = of.section->frame.v;
     const polygon::Moments& m = *of.moments;
@@ -110,7 +110,7 @@ void declare_principal_axes(DeclareFields<SectionMoments>& d) {
     d.object("world", self, "The axes in the world.", declare_world_axes);
 }
 
-/// The fields of sections and contours with moments.
+/// Declares the fields that sections and contours with moments share.
 template <class R, class Get>
 void declare_moments(DeclareFields<R>& d, Get moments) {
     constexpr const char* has = "there is a centroid";

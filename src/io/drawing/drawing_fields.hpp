@@ -6,11 +6,11 @@
 
 namespace facetmill::io {
 
-/// Origin, axes and normal of the frame.
+/// Declares the origin, axes and normal of the frame.
 void declare_frame_fields(DeclareFields<SectionFrame>& d);
 
-/// A whole section with holes subtracted (centroid null if undefined: see Section::moments), and its
-/// contours. Both have measures in the plane's frame and in world space. `points` is their count.
+/// Declares a whole section, with holes subtracted, and its contours. Both have measures in the plane's
+/// frame and in world space. The centroid is null if undefined (see Section::moments). `points` is a count.
 void declare_section_fields(DeclareFields<Section>& d);
 
 } // namespace facetmill::io

@@ -14,7 +14,7 @@ std::string extension_of(const std::string& path) {
     return dot == std::string::npos ? "" : lower_case(path.substr(dot + 1));
 }
 
-/// The section with the points of its contours instead of their count.
+/// The fields of the section, with the contours' points instead of their count.
 Json with_points(const Section& section) {
     static const Fields fields = fields_of<Section>(declare_section_fields);
     Json json = fields.json(&section);

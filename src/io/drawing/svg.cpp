@@ -10,7 +10,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// The SVG unit, and its number per unit of the scene.
+/// The SVG unit, and the number of SVG units per scene unit.
 struct Scale {
     const char* unit;
     double factor;
@@ -25,7 +25,7 @@ Scale scale_of(Unit unit) {
     case Unit::inch:
         return {"in", 1};
     case Unit::unknown:
-        return {"mm", 1}; // a drawing needs a size: an unknown unit is drawn as a millimetre
+        return {"mm", 1}; // a drawing needs a size, so an unknown unit is drawn as a millimetre
     case Unit::um:
     case Unit::m:
     case Unit::km:

@@ -2,143 +2,20 @@
 
 #include "base/json.hpp"
 #include "base/math/numbers.hpp"
-#include "base/math/portable_math.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "base/text/spelling.hpp"
 #include "base/text/words.hpp"
+#include "io/footprint/chains.hpp"
+#include "io/footprint/dxf.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill::io {
 
 namespace {
-
-/// A corner and the bulge of the segment after it: the tangent of a quarter of the arc's angle, 0 for
-/// straight.
-struct Corner {
-    Vec2 at;
-    double bulge = 0;
-};
-
-constexpr double step = pi / 36;
-
-/// Appends points of the arc from a to b, without b.
-void append_arc(const Corner& a, const Vec2& b, std::vector<Vec2>& out) {
-    out.push_back(a.at);
-    if (a.bulge == 0 || a.at == b) return;
-    const double angle = 4 * arc_tangent(a.bulge, 1);
-    const Vec2 chord = b - a.at;
-    // From the chord's middle, the centre is off by (1 - bulge^2) / (4 bulge) of the chord, to the left.
-    const double off = (1 - a.bulge * a.bulge) / (4 * a.bulge);
-    const Vec2 centre = (a.at + b) * 0.5 + Vec2{-chord.y, chord.x} * off;
-    const Vec2 from = a.at - centre;
-    const int pieces = static_cast<int>(std::ceil(std::fabs(angle) / step));
-    for (int i = 1; i < pieces; ++i) {
-        const double c = cosine(angle * i / pieces), s = sine(angle * i / pieces);
-        out.push_back(centre + Vec2{from.x * c - from.y * s, from.x * s + from.y * c});
-    }
-}
-
-class Dxf {
-  public:
-    Dxf(std::string_view text, const std::string& name) : text_(text, name, "E-DXF") {}
-
-    FootprintRings read() {
-        while (next()) {
-            if (code_ == 0)
-                start(value_);
-            else
-                field();
-        }
-        start("EOF");
-        return std::move(rings_);
-    }
-
-  private:
-    enum class Entity { other, section, lwpolyline, polyline, vertex, circle };
-
-    /// Reads the next group: a code and a value on separate lines.
-    bool next() {
-        if (text_.at_end()) return false;
-        code_ = text_.integer("a group code");
-        if (!text_.next_line()) text_.fail("the file ends after a group code");
-        value_ = text_.rest_of_line();
-        text_.next_line();
-        return true;
-    }
-
-    void start(std::string_view type) {
-        const bool within = entity_ == Entity::polyline || entity_ == Entity::vertex;
-        if (within && type == "VERTEX") {
-            entity_ = Entity::vertex;
-            corners_.push_back({});
-            return;
-        }
-        finish();
-        if (type == "ENDSEC") in_entities_ = false;
-        entity_ = type == "SECTION"      ? Entity::section
-                  : type == "LWPOLYLINE" ? Entity::lwpolyline
-                  : type == "POLYLINE"   ? Entity::polyline
-                  : type == "CIRCLE"     ? Entity::circle
-                                         : Entity::other;
-        corners_.clear();
-        closed_ = false;
-        radius_ = 0;
-        looks_ = {0, 0, 1};
-        if (entity_ == Entity::circle) corners_.push_back({});
-    }
-
-    void field() {
-        if (entity_ == Entity::other) return;
-        if (entity_ == Entity::section && code_ == 2) in_entities_ = value_ == "ENTITIES";
-        if (entity_ != Entity::vertex && code_ >= 210 && code_ <= 230 && code_ % 10 == 0)
-            looks_[static_cast<std::size_t>(code_ - 210) / 10] = number();
-        if (code_ == 70 && entity_ != Entity::vertex) closed_ = (parse_integer(value_).value_or(0) & 1) != 0;
-        if (code_ == 40 && entity_ == Entity::circle) radius_ = number();
-        if (entity_ == Entity::polyline) return; // 10 and 20 are its elevation
-        if (code_ == 10 && entity_ == Entity::lwpolyline) corners_.push_back({});
-        if (corners_.empty()) return;
-        if (code_ == 10) corners_.back().at.x = number();
-        if (code_ == 20) corners_.back().at.y = number();
-        if (code_ == 42) corners_.back().bulge = number();
-    }
-    double number() const {
-        const auto x = parse_real(value_);
-        if (!x) text_.fail(fmt::format("expected a number, found {}", in_quotes(value_)));
-        return *x;
-    }
-
-    void finish() {
-        if (entity_ == Entity::circle && radius_ > 0) {
-            const Vec2 c = corners_[0].at, r{radius_, 0};
-            corners_ = {{c - r, 1}, {c + r, 1}}; // two half circles
-            closed_ = true;
-        }
-        const bool joined = corners_.size() > 3 && corners_.front().at == corners_.back().at;
-        if (!in_entities_ || (!closed_ && !joined) || corners_.size() < 2) return;
-        if (looks_.x != 0 || looks_.y != 0 || looks_.z == 0)
-            text_.fail("a closed outline does not lie in the drawing's plane");
-        auto& ring = rings_.emplace_back();
-        for (std::size_t i = 0; i < corners_.size(); ++i)
-            append_arc(corners_[i], corners_[(i + 1) % corners_.size()].at, ring);
-        if (looks_.z < 0) // drawn from the back: x is reversed
-            for (Vec2& p : ring) p.x = -p.x;
-    }
-
-    Text text_;
-    std::int64_t code_ = 0;
-    std::string_view value_;
-    Entity entity_ = Entity::other;
-    std::vector<Corner> corners_;
-    bool closed_ = false;
-    double radius_ = 0;
-    Vec3 looks_{0, 0, 1};      ///< the direction that the entity is drawn from
-    bool in_entities_ = false; ///< not in a block, which only counts where it is inserted
-    FootprintRings rings_;
-};
-
-} // namespace
 
 bool is_dxf(std::string_view text) {
     const std::string_view head = text.substr(0, 4096);
@@ -148,11 +25,99 @@ bool is_dxf(std::string_view text) {
            head.find("SECTION") != std::string_view::npos;
 }
 
-FootprintRings parse_dxf(std::string_view text, const std::string& name) { return Dxf(text, name).read(); }
+// --- DXF
 
-// --- footprint
+/// "4 LINE and 2 ARC entities".
+std::string entities_text(const std::map<std::string, std::size_t>& counts) {
+    std::string text;
+    std::size_t all = 0, left = counts.size();
+    for (const auto& [type, count] : counts) {
+        append_item(text, fmt::format("{} {}", count, type), left == 1 ? " and " : ", ");
+        all += count;
+        --left;
+    }
+    return text + (all == 1 ? " entity" : " entities");
+}
 
-namespace {
+/// Outlines of a DXF, with warnings about entities that are left out.
+class DxfFootprint {
+  public:
+    DxfFootprint(std::string_view text, const std::string& name)
+        : name_(name), file_(parse_dxf(text, name)), curves_(curves_of(file_, name)) {}
+
+    FootprintFile read() {
+        for (DxfCurve& c : curves_.curves) {
+            const bool joined = !c.closed && c.points.front() == c.points.back();
+            if (joined) c.points.pop_back();
+            if ((joined || c.closed) && c.points.size() > 2) {
+                out_.rings.push_back(std::move(c.points));
+                continue;
+            }
+            if (joined) c.points.push_back(c.points.front());
+            types_.push_back(c.type);
+            open_.push_back({std::move(c.points), c.size, c.layer});
+        }
+        Chains chains = join_chains(open_, out_.rings, name_);
+        if (chains.branching) refuse_branching(*chains.branching);
+        std::map<std::string, std::size_t> open;
+        for (const Index c : chains.open) ++open[std::string(types_[c])];
+        if (chains.doubtful) refuse_gap(*chains.doubtful, open);
+        out_.rings = std::move(chains.rings);
+        if (!open.empty()) warn_of_open(open, chains.open.front());
+        if (!curves_.unused.empty())
+            warn(fmt::format("{} left out: only lines, arcs, circles, ellipses, splines and polylines form "
+                             "outlines",
+                             are(entities_text(curves_.unused), curves_.unused)),
+                 "if the outline needs them, explode them into such entities in the CAD program");
+        if (curves_.hidden > 0)
+            warn(fmt::format("{} left out: {} invisible, on a hidden layer or on a paper sheet",
+                             are(curves_.hidden), curves_.hidden == 1 ? "it is" : "they are"),
+                 "show their layers in the CAD program if they belong to the outline");
+        out_.metres = file_.metres;
+        out_.can_state_unit = true;
+        return std::move(out_);
+    }
+
+  private:
+    static std::string are(std::size_t count) {
+        return counted(count, "entity", "entities") + (count == 1 ? " is" : " are");
+    }
+    static std::string are(const std::string& text, const std::map<std::string, std::size_t>& counts) {
+        const bool one = counts.size() == 1 && counts.begin()->second == 1;
+        return text + (one ? " is" : " are");
+    }
+    void warn(std::string message, std::string hint) {
+        out_.warnings.push_back(
+            {Severity::warning, "W-FOOTPRINT", std::move(message), file_mark(name_), std::move(hint)});
+    }
+    void warn_of_open(const std::map<std::string, std::size_t>& open, Index first) {
+        const Vec2 &from = open_[first].points.front(), &to = open_[first].points.back();
+        warn(fmt::format("{} open and left out; the first reaches from ({}) to ({})",
+                         are(entities_text(open), open), readable_pair(from.x, from.y),
+                         readable_pair(to.x, to.y)),
+             "if they belong to the outline, join their ends in the CAD program");
+    }
+    [[noreturn]] void refuse_branching(const Vec2& at) const {
+        malformed(name_, 0, "E-FOOTPRINT",
+                  fmt::format("lines branch at ({}), so the outline is ambiguous", readable_pair(at.x, at.y)),
+                  "delete the lines that divide the outline, or draw it as a closed polyline");
+    }
+    [[noreturn]] void refuse_gap(const OpenOutline& gap,
+                                 const std::map<std::string, std::size_t>& open) const {
+        malformed(name_, 0, "E-FOOTPRINT",
+                  fmt::format("an outline has a gap of {} between ({}) and ({}); {} open",
+                              readable(length(gap.to - gap.from)), readable_pair(gap.from.x, gap.from.y),
+                              readable_pair(gap.to.x, gap.to.y), are(entities_text(open), open)),
+                  "join the ends in the CAD program, or delete the lines if they are no outline");
+    }
+
+    const std::string& name_;
+    DxfFile file_;
+    DxfCurves curves_;
+    std::vector<OpenCurve> open_;
+    std::vector<std::string_view> types_; ///< [open_]
+    FootprintFile out_;
+};
 
 // --- GeoJSON (RFC 7946)
 
@@ -221,7 +186,7 @@ class Wkt {
     FootprintRings read() {
         while (!at_end()) {
             std::string_view type = word();
-            if (same_word(type, "SRID")) { // "SRID=4326;", as PostGIS writes it
+            if (same_word(type, "SRID")) { // PostGIS writes "SRID=4326;" first
                 while (at_ < end_ && *at_ != ';') ++at_;
                 expect(';');
                 type = word();
@@ -304,7 +269,7 @@ class Wkt {
 
     const char *at_, *end_, *begin_;
     const std::string& name_;
-    int numbers_ = 0; ///< in the position; 0: none read
+    int numbers_ = 0; ///< numbers per position; 0: none read yet
     FootprintRings rings_;
 };
 
@@ -332,22 +297,42 @@ bool is_wkt(std::string_view text) {
 
 FootprintRings parse_wkt(std::string_view text, const std::string& name) { return Wkt(text, name).read(); }
 
-FootprintRings read_footprint(const Input& input) {
+namespace {
+
+[[noreturn]] void refuse_empty(const Input& input, const FootprintFile& file) {
+    std::string message = "there is no polygon in this file";
+    for (const Diagnostic& w : file.warnings) message += ": " + w.message;
+    malformed(input.name(), 0, "E-FOOTPRINT", std::move(message),
+              file.can_state_unit
+                  ? "draw the outline as closed polylines, or as lines and arcs whose ends meet"
+                  : "give a POLYGON or MULTIPOLYGON; lines and points have no inside");
+}
+
+} // namespace
+
+FootprintFile read_footprint(const Input& input) {
     const std::string_view text = without_space(as_text(input.bytes()));
-    FootprintRings rings;
+    FootprintFile file;
     if (text.starts_with("{"))
-        rings = GeoJson(input.name()).read(text);
+        file.rings = GeoJson(input.name()).read(text);
     else if (is_wkt(text))
-        rings = parse_wkt(text, input.name());
+        file.rings = parse_wkt(text, input.name());
+    else if (text.starts_with("AutoCAD Binary DXF"))
+        malformed(input.name(), 0, "E-DXF", "this is a binary DXF", "save it as a text (ASCII) DXF");
     else if (is_dxf(text))
-        rings = parse_dxf(text, input.name());
+        file = DxfFootprint(text, input.name()).read();
     else
         malformed(input.name(), 0, "E-FOOTPRINT", "this is neither GeoJSON nor WKT nor DXF as text",
-                  "a footprint is a POLYGON or MULTIPOLYGON, or closed polylines of a DXF");
-    if (rings.empty())
-        malformed(input.name(), 0, "E-FOOTPRINT", "there is no polygon in this file",
-                  "lines and points have no inside; in a DXF only closed polylines and circles do");
-    return rings;
+                  "a footprint is a POLYGON or MULTIPOLYGON, or outlines of a DXF");
+    if (file.rings.empty()) refuse_empty(input, file);
+    if (const std::size_t repeated = remove_repeated(file.rings))
+        file.warnings.push_back(
+            {Severity::warning, "W-FOOTPRINT",
+             fmt::format("{} left out, since {} on another one",
+                         repeated == 1 ? "1 ring is" : fmt::format("{} rings are", repeated),
+                         repeated == 1 ? "it lies" : "they lie"),
+             file_mark(input.name()), "delete the copies in the program that drew them"});
+    return file;
 }
 
 } // namespace facetmill::io

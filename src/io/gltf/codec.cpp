@@ -1,5 +1,4 @@
-// Reads a glTF file as a Scene (its document, its materials, and one part per node with triangles), and
-// writes it.
+// Reads and writes glTF. A Scene gets the document, its materials, and one part per node with triangles.
 
 #include "base/fast_json.hpp"
 #include "base/hash.hpp"
@@ -84,7 +83,7 @@ Material read_material(const JsonCursor& place, std::size_t index) {
     return material;
 }
 
-/// The mesh as in the file: one vertex for each glTF vertex, even at equal positions.
+/// Restores the vertices of the file: one vertex for each glTF vertex, even at equal positions.
 void unmerge(Mesh& mesh) {
     std::vector<Vec3> positions;
     for (const Index v : mesh.wedge_vertex) positions.push_back(mesh.positions[v]);
@@ -157,12 +156,12 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
          false});
 }
 
-/// of_points: points are read separately.
+/// of_points: the document has points, which are read separately.
 void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
                 const ReadSettings& settings, bool of_points, ReadLog& log) {
-    std::map<int, std::size_t> first_part; // by mesh: instances copy it
+    std::map<int, std::size_t> first_part; // by mesh; instances copy the part
     std::size_t vertices = 0;
-    double bytes = 0; // of copies, because a node needs few bytes of JSON
+    double bytes = 0; // the total size of copies, because a node needs few bytes of JSON
     auto all = placements(source.json(), frames);
     stand_at_largest_instances(source, frames, all);
     ProgressSteps steps(std::vector<double>(all.size(), 1));
@@ -214,7 +213,7 @@ bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
     return points;
 }
 
-/// Throws malformed (E-EMPTY) for a document with primitives if none of them was read.
+/// Throws a malformed-input error (E-EMPTY) for a document with primitives if none of them was read.
 void refuse_without_parts(const Json& document, const std::string& name) {
     std::size_t primitives = 0;
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
@@ -352,7 +351,7 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
     for (const auto& [name, path] : images) {
         try {
             all.push_back({name, sha256(Input::open(path).stored())});
-        } catch (const Error&) { // nor will it be copied
+        } catch (const Error&) { // it will not be copied either
         }
     }
     return all;
@@ -362,7 +361,7 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
 
 void peek(const Input& input, FileHeader& header) {
     in_file(input, [&] {
-        // Most of a document's JSON, which this check does not need.
+        // The largest lists of a document's JSON. This check does not need them.
         constexpr std::array<std::string_view, 2> unread{"accessors", "bufferViews"};
         Json json = parse_document(chunks_of(input).json, unread);
         const ScopedDestroy after(json);
@@ -513,8 +512,7 @@ namespace {
 
 int sniff_glb(Span bytes) { return is_glb(bytes) ? 2 : 0; }
 
-/// Recognises an object that names its asset near its beginning or end as certainly glTF; any other object
-/// may be glTF.
+/// Certain for a JSON object with "asset" near its beginning or end. Any other JSON object may be glTF.
 int sniff_gltf(Span bytes) {
     const std::string_view text = without_byte_order_mark(as_text(bytes));
     const auto first = text.find_first_not_of(" \t\r\n");
@@ -526,7 +524,7 @@ int sniff_gltf(Span bytes) {
     return asset ? 2 : 1;
 }
 
-/// companion: the file next to a text document, which also has its images in separate files.
+/// companion: the buffer file of a text document, whose images are also separate files.
 Capabilities abilities(std::string companion) {
     const bool copies = !companion.empty();
     return {.transforms = true,

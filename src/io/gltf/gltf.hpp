@@ -1,8 +1,8 @@
 #pragma once
-// Other uses of glTF besides reading and writing, which the codec registry provides (io/codec.hpp). These are
-// document contents other than meshes, animated parts, and position bits for Draco. Contents contain no
-// indices into the document, so that two files can be compared. A texture is its sampler and its image's
-// digest, an accessor its type and its numbers' digest. A node is its name, or its number if it has none.
+// Uses of glTF other than reading and writing (see io/codec.hpp): document contents other than meshes,
+// animated parts, and position bits for Draco. Contents contain no indices into the document, so that two
+// files can be compared. A texture becomes its sampler and its image's digest. An accessor becomes its type
+// and its numbers' digest. A node becomes its name, or its number if unnamed.
 
 #include "base/function.hpp"
 #include "base/json.hpp"
@@ -19,7 +19,7 @@ class MaterialContents {
   public:
     /// The scene must outlive it.
     explicit MaterialContents(const Scene& scene) : scene_(scene) {}
-    /// Null if the material belongs to no document. Throws malformed, like reading.
+    /// Null if the material belongs to no document. Throws a malformed-input error, like reading.
     Json of(const Material& material);
 
   private:
@@ -28,24 +28,24 @@ class MaterialContents {
 };
 
 /// One entry for each animation, skin, camera and light of the scene's first document with nodes:
-/// {animations: [...], skins: [...], cameras: [...], lights: [...]}; null without a document. Throws
-/// malformed, like reading.
+/// {animations: [...], skins: [...], cameras: [...], lights: [...]}; null without a document. Throws a
+/// malformed-input error, like reading.
 [[nodiscard]] Json document_contents(const Scene& scene);
 
-/// [parts] true if an animation of its document drives its node, or an ancestor. Such a node must keep its
-/// transform, which is only valid for one moment. Morph weights do not count. Throws malformed when the
-/// document's nodes or animations are invalid.
+/// [parts] true if an animation drives the part's node or an ancestor. Such a node must keep its transform,
+/// because the transform is only valid at one time. Animations of morph weights do not count. Throws a
+/// malformed-input error when the document's nodes or animations are invalid.
 [[nodiscard]] std::vector<bool> animated_parts(const Scene& scene);
 
-/// [parts] for parts at the largest of several instances (EXT_mesh_gpu_instancing): the distance by which
-/// writing the instance may move its points, in the world. 0 for other parts. Instances are float32; with
-/// meshopt's filters, rotations have 16 bits. Throws malformed when the document's nodes or instances are
-/// invalid.
+/// [parts] for parts with several instances (EXT_mesh_gpu_instancing): the largest distance, in the world,
+/// by which writing moves points of the largest instance. 0 for other parts. Instances are float32; with
+/// meshopt's filters, rotations have 16 bits. Throws a malformed-input error when the document's nodes or
+/// instances are invalid.
 [[nodiscard]] std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 
 /// Calls visit for each part with several instances (EXT_mesh_gpu_instancing), with the transforms from its
-/// space to the instances, as they would be written now. Of more than 65,536 instances it samples evenly;
-/// each sample represents that many. Throws malformed as above.
+/// space to the instances, as they would be written now. Beyond 65,536 instances it samples evenly, and each
+/// sample represents several instances. Throws the errors of errors_of_instances.
 void for_each_place_of_instances(
     const Scene& scene, const Function<void(std::size_t part, const Transform& place, double times)>& visit);
 

@@ -27,7 +27,7 @@ struct PngWriter {
     png_infop info = state ? ::png_create_info_struct(state) : nullptr;
     Bytes out{};
     const std::size_t
-        most; ///< bytes: stop as soon as the image is larger, because a larger result is not used
+        most; ///< stops as soon as the image has more bytes, because a larger result is not used
     bool too_many = false;
 
     explicit PngWriter(std::size_t bytes) : most(bytes) {}
@@ -177,7 +177,7 @@ struct JpegCopy {
         errors.output_message = [](j_common_ptr) {};
         return &errors;
     }
-    /// Encoders make fewer scans.
+    /// Limits the number of scans. Encoders make fewer.
     static void limit_scans(j_common_ptr state) {
         constexpr int most = 500;
         if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
@@ -268,9 +268,9 @@ bool is_opaque(const Pixels& image) {
 
 namespace {
 
-constexpr int smallest = 9, fastest = 1; // levels of zlib
+constexpr int smallest = 9, fastest = 1; // zlib levels
 
-/// No bytes if the result would exceed this number of bytes.
+/// Returns no bytes if the result would be larger than `most` bytes.
 Bytes png_of_type(const Pixels& image, int colour_type, int level, std::size_t most = SIZE_MAX) {
     PngWriter writer(most);
     const std::vector<std::uint8_t> channels = packed_channels(image, colour_type);
@@ -288,7 +288,7 @@ int type_of(const Pixels& image) { return (is_grey(image) ? 0 : PNG_COLOR_MASK_C
 /// large image over one and a half times the given size, the slowest level seldom helps. This occurs for the
 /// colours of a palette.
 Bytes repacked_png(const Pixels& image, std::size_t given) {
-    constexpr std::size_t large = std::size_t{1} << 20; // pixels
+    constexpr std::size_t large = std::size_t{1} << 20; // pixels of a large image
     const int type = type_of(image);
     if (image.width * image.height >= large && png_of_type(image, type, fastest, given + given / 2).empty())
         return {};
@@ -304,7 +304,7 @@ Bytes encoded_png_in_colour(const Pixels& image) {
 }
 
 Bytes repacked_image(Span bytes) {
-    constexpr std::size_t depth_at = 24; // in a PNG's header
+    constexpr std::size_t depth_at = 24; // offset of the bit depth in a PNG's header
     const std::string type = media_type(bytes);
     const bool png = type == "image/png", jpeg = type == "image/jpeg";
     if ((!png && !jpeg) || bytes.size() <= depth_at) return {};

@@ -13,7 +13,8 @@ struct LossSettings {
                              ///< conversion (WebP)
 };
 
-/// A PNG with as few channels as the image needs. Throws limit (E-MEMORY), as all these functions do.
+/// A PNG with as few channels as the image needs. Throws a limit error (E-MEMORY), as all these functions
+/// do.
 [[nodiscard]] Bytes encoded_png(const Pixels& image);
 /// A PNG with three channels, or four if any pixel is transparent, even if all pixels are grey.
 [[nodiscard]] Bytes encoded_png_in_colour(const Pixels& image);

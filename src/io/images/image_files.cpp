@@ -56,7 +56,7 @@ fs::path resolved(const fs::path& path, std::error_code& failed) {
     return failed ? fs::path() : fs::weakly_canonical(absolute, failed);
 }
 
-/// The path without "..", if that names the same file, which links can prevent.
+/// The path without "..", if this names the same file. Links can make it another file.
 fs::path plain(const fs::path& path, const fs::path& real) {
     std::error_code failed;
     const fs::path normal = path.lexically_normal();
@@ -85,7 +85,7 @@ std::string hint_for_asset_root(const Input& input, const std::optional<fs::path
     for (const fs::path& step : *relative)
         if (step == "..") folder /= step;
     folder = folder.lexically_normal();
-    if (!folder.has_filename()) folder = folder.parent_path(); // "assets/" -> "assets"
+    if (!folder.has_filename()) folder = folder.parent_path(); // converts "assets/" to "assets"
     const std::string name = for_shell(folder.empty() ? "." : folder.string());
     return fmt::format(
         "--asset-root {0}, or load: {{path: ..., asset_root: {0}}}, allows the files below that folder",
@@ -130,7 +130,7 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         log.files.push_back({*path, bytes.size(), sha256(bytes)});
         return bytes;
     } catch (const Error& error) {
-        // A failing disk, or too many open files: without this image the result would be different.
+        // A disk failure, or too many open files. Without this image the result would be different.
         if (error.kind() == ErrorKind::missing && may_read(*path)) throw;
         log.unrepeatable = true; // the file exists, and may become readable
         return refuse(error.diagnostics().front().message, "check the permissions of the image");
@@ -189,7 +189,7 @@ fs::path file_name_of_image(const std::string& name, std::size_t index, Span byt
     if (last == suffix || last == ".jpeg") stem.resize(stem.size() - last.size());
     for (char& c : stem)
         if (c == '/' || c == '\0') c = '_';
-    std::size_t end = std::min(stem.size(), most); // not in the middle of a character
+    std::size_t end = std::min(stem.size(), most); // avoids cutting a character
     while (end < stem.size() && end > 0 && (static_cast<unsigned char>(stem[end]) & 0xc0) == 0x80) --end;
     return stem.substr(0, end) + suffix;
 }

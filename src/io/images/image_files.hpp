@@ -1,6 +1,6 @@
 #pragma once
-// Images that a mesh file refers to: which may be read, their kinds, and their names next to the output. The
-// directory rule allows files below the input's directory, or below one of its asset roots.
+// Images that a mesh file refers to: the rule for reading them, their types, and their names next to the
+// output. The directory rule allows files below the input's directory, or below one of its asset roots.
 
 #include "io/codec.hpp"
 
@@ -14,8 +14,8 @@ namespace facetmill::io {
 [[nodiscard]] std::optional<std::filesystem::path> path_below(const Input& input,
                                                               const std::filesystem::path& relative);
 
-/// A hint to allow a file that the directory rule refuses; empty if nothing allows it (an absolute path, a
-/// URL).
+/// A hint how to allow a file that the directory rule refuses. Empty if no option allows it (an absolute
+/// path, a URL).
 [[nodiscard]] std::string hint_for_asset_root(const Input& input,
                                               const std::optional<std::filesystem::path>& relative);
 
@@ -23,15 +23,15 @@ namespace facetmill::io {
 /// None if it is empty or absolute.
 [[nodiscard]] std::optional<std::filesystem::path> relative_path_of(std::string name);
 
-/// The bytes of an image near the input. Adds its path to the log. If it cannot be read: none, and a warning
-/// (W-IMAGE) that begins with `where`. relative: none if the name is not a relative path.
+/// The bytes of an image near the input. Adds its path to the log. If it cannot be read, returns none and
+/// adds a warning (W-IMAGE) that begins with `where`. relative: none if the name is not a relative path.
 [[nodiscard]] std::optional<Bytes> read_image(const Input& input,
                                               const std::optional<std::filesystem::path>& relative,
                                               const std::string& name, const std::string& where,
                                               ReadLog& log);
 
-/// "image/png", "image/jpeg", "image/webp", "image/ktx2" or "image/vnd-ms.dds" by the first bytes; empty for
-/// others.
+/// The media type by the first bytes: "image/png", "image/jpeg", "image/webp", "image/ktx2" or
+/// "image/vnd-ms.dds"; otherwise empty.
 [[nodiscard]] std::string media_type(Span bytes);
 
 /// The colour channels of a PNG or JPEG, from its header.
@@ -56,23 +56,23 @@ bool has_bytes(const std::filesystem::path& path, Span bytes);
 [[nodiscard]] std::string uri_of(const std::filesystem::path& relative);
 
 /// Names images next to an output. For lamp.gltf, "textures/wood.png" becomes "textures/lamp.wood.png", so
-/// that two outputs in a folder never share a name for different images. The same name replaces
-/// "../textures/wood.png", because nothing is written outside the output's folder.
+/// that two outputs in a folder never share a name for different images. "../textures/wood.png" gets the
+/// same name, because no file is written outside the output's folder.
 class ImageNames {
   public:
     enum class Spelling {
         kept, ///< the same as in the input
-        plain ///< for lines of text with a file name among other words: without blanks, quotes ...
+        plain ///< without blanks and quotes, for text lines with a file name among other words
     };
-    /// The output's other files are named `stem` with the suffix of a mesh format.
+    /// The output's other files are named `stem` plus the suffix of a mesh format.
     explicit ImageNames(const std::string& stem, Spelling spelling = Spelling::kept);
-    /// The output name for an image with that name. Names that differ only in case count as equal.
+    /// Returns the output name for an image with this name. Names that differ only in case count as equal.
     std::filesystem::path add(const std::filesystem::path& relative);
 
   private:
     Spelling spelling_;
     std::string stem_;
-    std::set<std::string> taken_; ///< in lower case
+    std::set<std::string> taken_; ///< used names, in lower case
 };
 
 } // namespace facetmill::io

@@ -106,7 +106,7 @@ std::string problem_of(const ProgramSettings& settings, const Descriptor& socket
     return {};
 }
 
-/// "ktx version: v4.3.2".
+/// The version text looks like "ktx version: v4.3.2".
 bool is_before_4_4(const std::string& version) {
     const auto at = version.find_first_of("0123456789");
     int major = 0, minor = 0;
@@ -180,7 +180,7 @@ class Worker {
 struct Workers {
     std::mutex mutex;
     std::condition_variable freed;
-    std::vector<std::shared_ptr<const Descriptor>> all, free; ///< sockets
+    std::vector<std::shared_ptr<const Descriptor>> all, free; ///< sockets of all workers and of free workers
 };
 
 Workers& workers() {

@@ -22,12 +22,12 @@ struct KtxOrder {
     bool uastc = false; ///< UASTC, supercompressed by Zstandard; otherwise ETC1S (BasisLZ)
     bool srgb = false;  ///< sRGB transfer function; otherwise linear
     bool alpha = false; ///< four channels; otherwise three
-    int quality = 80;   ///< of ETC1S, 1 to 100
+    int quality = 80;   ///< quality of ETC1S, 1 to 100
     std::chrono::seconds limit{600};
 };
 
 /// Encodes a PNG as a KTX2 file with all its levels. Thread-safe: each call waits for a free worker. Throws
-/// stage (E-KTX) if the program is missing, fails, or exceeds the time limit.
+/// a stage error (E-KTX) if the program is missing, fails, or exceeds the time limit.
 [[nodiscard]] Bytes run_ktx(Span png, const KtxOrder& order);
 
 } // namespace facetmill::io

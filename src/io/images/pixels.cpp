@@ -96,7 +96,7 @@ void limit_scans(j_common_ptr state) {
         leave_jpeg(state);
 }
 
-/// The same as read_png.
+/// Reads a JPEG; see read_png.
 bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bool header, Pixels& pixels) {
     if (setjmp(errors.back) != 0) return false;
     ::jpeg_create_decompress(&state);
@@ -110,7 +110,7 @@ bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bo
     progress.progress_monitor = limit_scans;
     state.progress = &progress;
     state.out_color_space = JCS_EXT_RGBA;
-    state.dct_method = JDCT_ISLOW; // integers: the same on every processor
+    state.dct_method = JDCT_ISLOW; // integer arithmetic gives the same result on every processor
     pixels.rgba.resize(4 * pixels.width * pixels.height);
     ::jpeg_start_decompress(&state);
     while (state.output_scanline < state.output_height) {

@@ -1,5 +1,5 @@
 #pragma once
-// Decoded images, also for textures whose channels glTF arranges differently.
+// Decodes images, and combines channels for glTF textures that arrange them differently.
 
 #include "io/bytes.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace facetmill::io {
 
-/// Red, green, blue and alpha of 8 bits each, row by row from the top, as the file stores them.
+/// Red, green, blue and alpha with 8 bits each, row by row from the top. Values are as in the file.
 struct Pixels {
     std::size_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
@@ -31,7 +31,7 @@ constexpr std::size_t max_pixels = std::size_t{1} << 26;
 /// each scan costs as much as a whole image.
 [[nodiscard]] std::optional<Pixels> decoded_image(Span bytes);
 
-/// The width and height of such an image. Reads only the header; none if that is broken.
+/// The width and height of such an image. Reads only the header; none if the header is broken.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> image_size(Span bytes);
 
 /// Whether all pixels are grey.
@@ -50,7 +50,8 @@ constexpr int brightness = 4; ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R B
 [[nodiscard]] Bytes combined_image(const std::array<Channel, 4>& channels);
 
 /// A PNG with the normals of a height map: slopes are `strength` times the brightness difference of the
-/// neighbours. The image repeats at its borders. Blinn, "Simulation of Wrinkled Surfaces", 1978.
+/// neighbours. The image repeats at its borders. Source: J. F. Blinn, "Simulation of Wrinkled Surfaces",
+/// 1978.
 [[nodiscard]] Bytes normals_of_relief(const Pixels& relief, double strength);
 
 } // namespace facetmill::io

@@ -17,7 +17,7 @@ void put_text(Bytes& out, std::string_view text) {
     for (const char c : text) out.push_back(static_cast<std::byte>(c));
 }
 
-/// Length, type, data, checksum.
+/// Appends the length, type, data and checksum of a chunk.
 void put_chunk(Bytes& out, std::string_view type, const Bytes& data) {
     put_number(out, static_cast<std::uint32_t>(data.size()));
     const std::size_t checked = out.size();
@@ -38,7 +38,7 @@ int predicted(int left, int above, int corner) {
     return to_above <= to_corner ? above : corner;
 }
 
-/// The rows after the filter: every byte minus its prediction.
+/// The filtered rows: every byte minus its prediction.
 Bytes filtered(const Picture& picture, Filter filter) {
     const std::size_t row = static_cast<std::size_t>(picture.width) * 4;
     Bytes out;
@@ -91,7 +91,7 @@ Bytes png(const Picture& picture, PngEffort effort) {
     put_number(header, static_cast<std::uint32_t>(picture.width));
     put_number(header, static_cast<std::uint32_t>(picture.height));
     for (const int field :
-         {8, 6, 0, 0, 0}) // bits, RGBA, the only compression and filter method, not interlaced
+         {8, 6, 0, 0, 0}) // 8 bits, RGBA, the only compression and filter methods, not interlaced
         header.push_back(static_cast<std::byte>(field));
     Bytes out;
     put_text(out, "\x89PNG\r\n\x1a\n");

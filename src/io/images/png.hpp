@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as PNG files, and as text inside a page.
+// Encodes pictures as PNG files, and as text inside a page.
 
 #include "geometry/render/render.hpp"
 #include "io/bytes.hpp"
@@ -11,7 +11,7 @@ enum class PngEffort {
     fast ///< a sixth of the time for an eighth more bytes
 };
 
-/// A PNG of 8 bits a channel with alpha. Throws limit (E-MEMORY) when zlib has no memory.
+/// A PNG of 8 bits a channel with alpha. Throws a limit error (E-MEMORY) when zlib has no memory.
 [[nodiscard]] Bytes png(const Picture& picture, PngEffort effort = PngEffort::small);
 
 /// The bytes in base64 (RFC 4648, with padding).

@@ -21,12 +21,12 @@ struct Taps {
 double sinc(double x) { return x == 0 ? 1 : sine(pi * x) / (pi * x); }
 double lanczos(double x) { return std::abs(x) < 3 ? sinc(x) * sinc(x / 3) : 0; }
 
-/// One entry for each pixel of the new side, which is `to` pixels long.
+/// An entry for each pixel of the new side, which is `to` pixels long.
 std::vector<Taps> taps_of(std::size_t from, std::size_t to) {
     const double scale = static_cast<double>(from) / static_cast<double>(to);
     std::vector<Taps> all(to);
     for (std::size_t i = 0; i < to; ++i) {
-        const double centre = (static_cast<double>(i) + 0.5) * scale - 0.5; // in source pixels
+        const double centre = (static_cast<double>(i) + 0.5) * scale - 0.5; // position in source pixels
         const double low = std::max(0.0, std::ceil(centre - 3 * scale));
         const double high = std::min(static_cast<double>(from - 1), std::floor(centre + 3 * scale));
         Taps& taps = all[i];
@@ -42,8 +42,8 @@ std::vector<Taps> taps_of(std::size_t from, std::size_t to) {
     return all;
 }
 
-/// The channels of a pixel that are mixed: red, green, blue, alpha. With coverage also the colours weighted
-/// by alpha.
+/// The channels of a pixel that are mixed: red, green, blue and alpha. With coverage, the colours weighted
+/// by alpha are mixed too.
 struct Mixing {
     PixelKind kind;
     bool coverage;
@@ -74,7 +74,7 @@ struct Mixing {
     }
 
     void pack(const float* from, std::size_t count, std::uint8_t* to) const {
-        constexpr float invisible = 0.5f / 255; // alpha that is rounded to 0
+        constexpr float invisible = 0.5f / 255; // smaller alpha values are rounded to 0
         for (std::size_t i = 0; i < count; ++i, from += channels(), to += 4) {
             to[3] = byte_of(from[3]);
             if (kind == PixelKind::normals) {

@@ -34,7 +34,7 @@ Colour colour(const JsonCursor& owner, const char* key, const Colour& otherwise)
     return {value->at(std::size_t{0}).real(), value->at(1).real(), value->at(2).real()};
 }
 
-/// The Phong exponent that a reader turns into this roughness, with as few digits as possible.
+/// The Phong exponent, in as few digits as possible, that a reader converts to this roughness.
 double exponent_of(double roughness) {
     const double squared = roughness * roughness, exponent = 2 / (squared * squared) - 2;
     for (int digits = 1; digits < 17; ++digits) {
@@ -98,7 +98,8 @@ class Describer {
         return nullptr;
     }
 
-    /// MTL repeats an image in both directions or in none, and has no words for filters.
+    /// True if the image does not repeat. MTL repeats an image in both directions or in none, and has no
+    /// statements for filters.
     bool is_clamped(const std::string& key, const JsonCursor& texture) {
         constexpr std::uint64_t nearest = 9728, repeat = 10497, clamp = 33071;
         const auto reference = texture.find("sampler");
@@ -113,7 +114,7 @@ class Describer {
         return s == clamp && t == clamp;
     }
 
-    /// The statement that a reader turns into owner[key]. None if the texture is missing, or if MTL cannot
+    /// The statement that a reader converts to owner[key]. None if the texture is missing, or if MTL cannot
     /// express its coordinates.
     std::optional<Map> map(const JsonCursor& owner, const std::string& key) {
         const auto info = owner.find(key.c_str());
@@ -152,7 +153,7 @@ class Describer {
         return true;
     }
 
-    /// Omits the map if the factor is black, because readers take black with a map for white.
+    /// Omits the map if the factor is black, because readers treat black with a map as white.
     std::optional<Map> map_with(const Colour& factor, const JsonCursor& owner, const std::string& key) {
         if (owner.find(key.c_str()) && std::max({factor[0], factor[1], factor[2]}) == 0) {
             lose_texture(key, "its factor is black");
@@ -178,7 +179,7 @@ class Describer {
         }
     }
 
-    /// glTF states whether alpha counts; in MTL it always does.
+    /// glTF states whether alpha applies; in MTL it always applies.
     void add_opacity(const JsonCursor& material) {
         const std::string mode = material.text_or("alphaMode", "OPAQUE");
         if (mode == "OPAQUE") return;
@@ -212,8 +213,8 @@ class Describer {
         put("norm", std::move(normals));
     }
 
-    /// Readers take the same image in map_Pr and map_Pm for glTF's texture: roughness in green and metalness
-    /// in blue. Without metal this also holds for map_Pr alone.
+    /// Readers interpret the same image in map_Pr and map_Pm as glTF's texture: roughness in green,
+    /// metalness in blue. Without metalness, map_Pr alone suffices.
     void add_surface(const JsonCursor& material, const JsonCursor& pbr) {
         const bool older = extension(material, "KHR_materials_pbrSpecularGlossiness").has_value();
         if (older && material.find("occlusionTexture")) lose_texture("occlusionTexture", no_map);
@@ -250,7 +251,8 @@ class Describer {
         return !out_.metalness && !out_.maps.contains("pr") && !out_.maps.contains("orm");
     }
 
-    /// Readers use the colour of highlights only without Pr and Pm; the roughness then is Phong's exponent.
+    /// Readers use the colour of highlights only without Pr and Pm. The roughness is then stored as Phong's
+    /// exponent.
     void add_highlights(const JsonCursor& material, const JsonCursor& pbr) {
         const auto specular = extension(material, "KHR_materials_specular");
         if (!specular) return;
@@ -292,8 +294,8 @@ class Describer {
         }
     }
 
-    /// Marks all planned images as used, even if the library cannot express their textures, because a plan
-    /// does not distinguish these.
+    /// Marks all planned images as used. A plan includes images even if the library cannot express their
+    /// textures.
     void keep_images(const Json& material) {
         for (const std::size_t i : images_of_material(json_, material))
             if (const auto* image = images_.find(material_.document, i); image && image->planned)
@@ -327,7 +329,7 @@ const std::set<std::string>& kept_by_library() {
 Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses) {
     try {
         if (material.document >= 0 && material.index >= 0) return Describer(material, images, losses).run();
-    } catch (const Error& error) { // readers check nothing beyond the meshes of a document
+    } catch (const Error& error) { // readers do not check a document beyond its meshes
         losses.add("all but its colour", error.diagnostics().front().message, material.name);
     }
     Description colour;

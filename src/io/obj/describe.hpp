@@ -11,14 +11,14 @@ namespace facetmill::io::obj {
 /// The features that MTL cannot express, with the materials that have them.
 class LibraryLosses {
   public:
-    /// what: "occlusionTexture", "KHR_materials_clearcoat"; why: the reason, for people.
+    /// what: for example "occlusionTexture" or "KHR_materials_clearcoat". why: the reason in the message.
     void add_texture(const std::string& what, const std::string& why, const std::string& material) {
         note(textures_, what, why, material);
     }
     void add(const std::string& what, const std::string& why, const std::string& material) {
         note(others_, what, why, material);
     }
-    /// W-TEXTURES and W-MTL, each once.
+    /// W-TEXTURES and W-MTL, at most once each.
     std::vector<Diagnostic> warnings() const;
 
   private:
@@ -33,7 +33,7 @@ const std::set<std::string>& extensions_of_library();
 /// extensions_of_library(), and the other parts of a document that a library can express.
 const std::set<std::string>& kept_by_library();
 
-/// The MTL statements that a reader turns into the scene's material. Records losses and marks the images
+/// The MTL statements that a reader converts to the scene's material. Records losses and marks the images
 /// that the statements name as used. A material without a document has only its colour.
 [[nodiscard]] Description describe(const Material& material, LibraryImages& images, LibraryLosses& losses);
 

@@ -27,7 +27,7 @@ void warn(ReadLog& log, const std::string& name, std::string message, std::strin
 
 double fraction(double x) { return std::clamp(x, 0.0, 1.0); }
 
-/// Reads at most `most` numbers, and does not read past them.
+/// Reads at most `most` numbers, and nothing after them.
 std::vector<double> take_numbers(Text& text, std::size_t most) {
     std::vector<double> numbers;
     while (numbers.size() < most) {
@@ -79,7 +79,7 @@ class LibraryReader {
         if (line.starts_with(double_sided_comment)) current_->double_sided = true;
         if (!line.starts_with(name_comment)) return;
         line.remove_prefix(name_comment.size());
-        current_->name = line.starts_with(' ') ? line.substr(1) : line; // its other blanks are the name's
+        current_->name = line.starts_with(' ') ? line.substr(1) : line; // other blanks belong to the name
     }
 
     void statement(std::string_view word) {

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The order of a plan: if a document has only materials, the images that they name; else all.
+/// The images in the order of a plan. If a document has only materials, these are the images that the
+/// materials name; otherwise all.
 std::vector<ImageFile> in_order(std::vector<ImageFile> files, const Json& document) {
     if (document.contains("meshes") || !document.contains("materials")) return files;
     std::vector<std::size_t> order;
@@ -29,8 +30,8 @@ std::vector<ImageFile> in_order(std::vector<ImageFile> files, const Json& docume
     return all;
 }
 
-/// Whether a reader takes the end of a line for the path. It must not begin like an option, and no blank or
-/// quote may be lost.
+/// Whether a reader interprets the end of a line as this path. The path must not begin like an option, and
+/// no blank or quote may be lost.
 bool can_end_a_line(const std::string& path) {
     const auto is_control = [](unsigned char c) { return c < ' '; };
     return !path.empty() && !path.starts_with('-') && !path.starts_with('"') && !path.starts_with(' ') &&

@@ -1,6 +1,6 @@
 #pragma once
-// The images that an OBJ's library names. They come from the scene's documents and are copied next to the
-// OBJ or referenced in place.
+// The images that an OBJ's library names. They come from the scene's documents, and are copied next to the
+// OBJ or referenced where they are.
 
 #include "base/json.hpp"
 #include "io/codec.hpp"
@@ -17,11 +17,12 @@ class LibraryImages {
     struct Image {
         std::string name; ///< as the library spells it: a path with slashes
         Bytes bytes;
-        std::string type; ///< image/png ...
+        std::string type; ///< for example "image/png"
         bool alpha = false;
-        bool copied = false;  ///< written under that name; else the name refers to an existing file
-        bool planned = false; ///< listed by a plan: a file, or a kind that a library names
-        bool spelled = true;  ///< a line of a library can hold the name
+        bool copied =
+            false; ///< true if written under this name; otherwise the name refers to an existing file
+        bool planned = false; ///< true if a plan lists it: a file, or an image type that a library names
+        bool spelled = true;  ///< true if a library can spell the name
         bool used = false;
     };
     /// The document's parsed JSON. document: an index into the scene's documents.
@@ -29,7 +30,7 @@ class LibraryImages {
     /// Null if the image's bytes are missing. document: an index into the scene's documents; index: into its
     /// images.
     const Image* find(int document, std::size_t index) const;
-    /// The image of that name, or null.
+    /// The image with this name, or null.
     const Image* named(const std::string& name) const;
     void use(const Image& image);
 

@@ -33,7 +33,8 @@ Json colour_json(const Colour& c, double factor = 1) {
     return {std::min(c[0] * factor, 1.0), std::min(c[1] * factor, 1.0), std::min(c[2] * factor, 1.0)};
 }
 
-/// White instead of black with a texture, because exporters write black if only the texture should count.
+/// Replaces black by white if there is a texture, because exporters write black when only the texture should
+/// count.
 Colour tint(const std::optional<Colour>& colour, bool textured) {
     return colour && !(textured && greatest(*colour) == 0) ? *colour : Colour{1, 1, 1};
 }
@@ -47,7 +48,7 @@ void add_emission(Json& json, const Description& d, bool textured) {
     if (most > 1) json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", most}};
 }
 
-/// The name of an image made of another or of two others: "wood-mask.png".
+/// The name of an image derived from one or two others: "wood-mask.png".
 std::filesystem::path derived_name(const Map* first, const Map& second) {
     const std::string stem = second.relative.stem().string();
     if (!first || first->relative == second.relative)
@@ -68,7 +69,7 @@ MaterialMaker::MaterialMaker(const Input& input, std::map<std::string, Descripti
     : input_(input), descriptions_(std::move(descriptions)), log_(log), names_only_(names_only),
       document_(input.name()) {}
 
-/// The same operation on equal images gives equal images. If only names are needed, digests of the sources
+/// Equal operations on equal images give equal images. If only names are needed, the digests of the sources
 /// therefore replace the result.
 template <class Make>
 Bytes MaterialMaker::made(const char* how, const Map* first, const Map* second, Make&& make) {
@@ -115,8 +116,8 @@ const Pixels* MaterialMaker::pixels_of(const std::string& material, const std::s
     return image->pixels ? &*image->pixels : nullptr;
 }
 
-/// glTF's reference to the texture. OBJ's v counts from the bottom, so OBJ's t = s (1 - v) + o becomes
-/// glTF's 1 - t = s v + (1 - s - o).
+/// glTF's reference to the texture. OBJ's v starts at the bottom, so OBJ's t = s (1 - v) + o becomes glTF's
+/// 1 - t = s v + (1 - s - o).
 Json MaterialMaker::reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map,
                               bool is_file) {
     Json out = {{"index", document_.texture(image, bytes, map.clamp, is_file)}};
@@ -147,8 +148,8 @@ void MaterialMaker::add_colour_maps(Json& json, const std::string& name, const D
             json["extensions"]["KHR_materials_specular"]["specularColorTexture"] = *std::move(reference);
 }
 
-/// glTF's opacity is the alpha of the colour texture. It takes the alpha of map_d's image, or the image's
-/// brightness without alpha.
+/// glTF's opacity is the alpha of the colour texture. It is set to the alpha of map_d's image, or to the
+/// brightness of an image without alpha.
 void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const Description& d) {
     const auto map = d.maps.find("d"), colour = d.maps.find("kd");
     if (map == d.maps.end()) return;
@@ -216,7 +217,7 @@ std::optional<Json> MaterialMaker::surface_texture(const std::string& name, cons
                      map);
 }
 
-/// If the library gives no factor, or 0, the texture counts alone (factor 1).
+/// If the library's factor is missing or 0, the factor becomes 1, so that only the texture counts.
 void MaterialMaker::add_surface_maps(Json& json, const std::string& name, const Description& d) {
     auto texture = surface_texture(name, d);
     if (!texture) return;

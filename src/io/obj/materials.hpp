@@ -10,16 +10,16 @@
 
 namespace facetmill::io::obj {
 
-/// A texture statement: an image and its mapping. Texture coordinates count from the bottom.
+/// A texture statement: an image and its mapping. Its v starts at the bottom.
 struct Map {
     std::string file;                 ///< as written in the file
-    std::filesystem::path relative{}; ///< to the OBJ file; empty when it is absolute
+    std::filesystem::path relative{}; ///< the path relative to the OBJ file; empty if the path is absolute
     std::array<double, 2> scale{1, 1}, offset{0, 0};
     bool clamp = false;
-    double strength = 1; ///< -bm
+    double strength = 1; ///< the bump multiplier, -bm
 
-    bool operator==(const Map&) const = default; ///< compares the strength too
-    /// Whether another statement has the same mapping.
+    bool operator==(const Map&) const = default; ///< also compares the strength
+    /// Whether both have the same mapping.
     bool lies_as(const Map& other) const {
         return scale == other.scale && offset == other.offset && clamp == other.clamp;
     }
@@ -29,19 +29,19 @@ using Colour = std::array<double, 3>;
 
 /// A material as in the library. Statements missing from the file are empty.
 struct Description {
-    std::optional<std::string> name{};                     ///< from a comment, if newmtl has another name
-    std::optional<Colour> diffuse, specular, emission;     ///< Kd, Ks, Ke
+    std::optional<std::string> name{};                 ///< the name in a comment, if newmtl has another name
+    std::optional<Colour> diffuse, specular, emission; ///< Kd, Ks, Ke
     std::optional<double> shininess, roughness, metalness; ///< Ns, Pr, Pm
     std::optional<int> illumination;                       ///< illum
     double opacity = 1;                                    ///< d, or 1 - Tr
-    bool double_sided = false;         ///< from a comment, because MTL has no statement for it
+    bool double_sided = false;         ///< read from a comment, because MTL has no statement for it
     std::map<std::string, Map> maps;   ///< by keyword: "map_Kd" is "kd"
     std::vector<std::string> left_out; ///< statements and options that glTF cannot represent
 
     bool operator==(const Description&) const = default;
 };
 
-/// The materials of all libraries that the events name, by name. A library that cannot be read is a warning
+/// The materials of all libraries that the events name, by name. An unreadable library gives a warning
 /// (W-MTL), because the mesh is complete without it.
 [[nodiscard]] std::map<std::string, Description>
 read_libraries(const Input& input, const std::vector<Event>& events, ReadLog& log);
@@ -52,7 +52,7 @@ class MaterialMaker {
     /// names_only: only images() is needed, so derived images are not computed.
     MaterialMaker(const Input& input, std::map<std::string, Description> descriptions, ReadLog& log,
                   bool names_only = false);
-    /// The index of the material with that name in `materials`. textured: for faces with texture
+    /// The index in `materials` of the material with this name. textured: the faces have texture
     /// coordinates. Warns of statements that glTF cannot represent (W-MTL) and of unreadable textures
     /// (W-IMAGE).
     Index index_of(const std::string& name, bool textured, std::vector<Material>& materials);
@@ -91,9 +91,9 @@ class MaterialMaker {
     std::map<std::pair<std::string, bool>, Index> known_;
 };
 
-/// The comment after # for a material whose both sides are visible.
+/// The comment (after #) for a material that is visible from both sides.
 inline constexpr std::string_view double_sided_comment = "doubleSided: true";
-/// The comment for a name that newmtl cannot hold, or that another material has too.
+/// The comment (after #) for a name that newmtl cannot hold, or that several materials have.
 inline constexpr std::string_view name_comment = "glTF name:";
 
 /// The roughness of a highlight with Phong's exponent (Ns).

@@ -17,7 +17,7 @@ namespace facetmill::io::obj {
 namespace {
 
 constexpr std::int32_t absent = std::numeric_limits<std::int32_t>::min();
-constexpr float not_given = std::numeric_limits<float>::quiet_NaN(); ///< a colour
+constexpr float not_given = std::numeric_limits<float>::quiet_NaN(); ///< marks a missing colour
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 /// A corner as written: an index from 0, or an index relative to the first element of the chunk.
@@ -27,10 +27,10 @@ struct Corner {
 
 /// The corners of faces in the usual forms: positions alone, or all three indices.
 struct Corners {
-    std::vector<std::int32_t> index[3]; ///< as in Corner; empty when all are absent, for uv and normal
+    std::vector<std::int32_t> index[3]; ///< as in Corner; uv and normal are empty if all are absent
     /// A bit for each index of each corner; empty if all indices count from the start of the file.
     std::vector<std::uint8_t> relative;
-    bool has_more = false; ///< more indices than positions
+    bool has_more = false; ///< a corner has a uv or a normal
 
     std::size_t size() const { return index[0].size(); }
     void push_back(const Corner& corner, std::uint8_t bits) {
@@ -59,7 +59,7 @@ struct Corners {
 
 /// The contents of a chunk of lines; counts and relative indices are local to the chunk.
 struct Chunk {
-    Statements own; ///< without corners
+    Statements own; ///< all statements except corners
     Corners corners;
     std::vector<std::int32_t> line_corners;
     std::vector<std::uint8_t> line_relative; ///< whether the position's index is relative to the chunk
@@ -97,7 +97,7 @@ class ChunkParser {
         if (word == "mtllib") return event(Event::Kind::library);
         ++out_.skipped[std::string(word.substr(0, 20))];
         while (!text_.word_on_line().empty()) {
-        } // including continuation lines
+        } // includes continuation lines
     }
 
     void vertex() {
@@ -194,7 +194,7 @@ class ChunkParser {
     Text text_;
     Chunk& chunk_;
     Statements& out_;
-    bool any_; ///< coordinates that are not finite are dropped later
+    bool any_; ///< accepts coordinates that are not finite; they are dropped later
 };
 
 /// Splits the text into pieces of about chunk_bytes at line ends that are not continued.
@@ -229,7 +229,8 @@ void rethrow_first(const std::vector<Chunk>& chunks, const std::string& name) {
     }
 }
 
-/// The line of statement `number` (from 0), counting only these words with at least `least` corners.
+/// The line of the statement with this number, counted from 0 among statements with one of these words and
+/// at least `least` corners.
 std::int64_t line_of(const Input& input, std::initializer_list<std::string_view> words, int least,
                      std::size_t number) {
     Text text(as_text(input.bytes()), input.name(), "E-OBJ", '#');
@@ -346,7 +347,7 @@ class Joiner {
             else if (k == 0)
                 return false;
             else
-                ++dangling_[c]; // the surface is complete without it
+                ++dangling_[c]; // the surface is complete without this index
         }
         const std::size_t at = before_[c].corners + i;
         out_.corners[at] = found[0];

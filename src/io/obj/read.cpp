@@ -25,8 +25,8 @@ struct Naming {
     std::map<std::string, Index> known;
 };
 
-/// The name in force at each of `count` elements, from the events of a kind; `before` applies before the
-/// first.
+/// The current name at each of `count` elements, from the events of a kind. `before` is the name before the
+/// first event.
 Naming naming(const Statements& s, Event::Kind kind, const std::string& before, std::size_t count,
               std::size_t Event::*first) {
     Naming n;
@@ -91,7 +91,7 @@ void add_wedges(Mesh& mesh, Statements& s) {
         if (t != none) {
             uvs = true;
             uv[2 * w] = s.uvs[2 * std::size_t{t}];
-            uv[2 * w + 1] = 1 - s.uvs[2 * std::size_t{t} + 1]; // glTF counts from the top
+            uv[2 * w + 1] = 1 - s.uvs[2 * std::size_t{t} + 1]; // glTF's v starts at the top
         }
         if (n != none) {
             normals = has_normal[w] = true;
@@ -123,13 +123,13 @@ std::vector<bool> faces_with_uvs(const Statements& s) {
 
 /// The wedge attributes of a primitive with or without texture coordinates.
 std::vector<std::string> attributes_of(const Mesh& mesh, bool with_uvs) {
-    std::vector<std::string> names{"POSITION"}; // an empty list would mean all
+    std::vector<std::string> names{"POSITION"}; // an empty list would mean all attributes
     for (const Attribute& a : mesh.attributes)
         if (a.domain == Domain::wedge && (with_uvs || a.name != "TEXCOORD_0")) names.push_back(a.name);
     return names;
 }
 
-const std::string no_material; ///< usemtl without a name means the same
+const std::string no_material; ///< usemtl without a name also means no material
 
 bool has_names(const Naming& materials) {
     return !materials.names.empty() && materials.names != std::vector{no_material};
@@ -149,7 +149,8 @@ void add_materials(Scene& scene, Mesh& mesh, const Statements& s, MaterialMaker&
     const std::vector<bool> with_uvs = faces_with_uvs(s);
     const bool uvs = mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
     if (!has_names(used) && with_uvs.empty()) return;
-    std::vector<Index> primitive_of(2 * used.names.size(), none); // without and with texture coordinates
+    std::vector<Index> primitive_of(2 * used.names.size(),
+                                    none); // two per name: without and with texture coordinates
     std::vector<Index> of_face(s.faces());
     for (std::size_t f = 0; f < of_face.size(); ++f) {
         const bool with = with_uvs.empty() ? uvs : with_uvs[f];
@@ -216,7 +217,7 @@ std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, E
     return object;
 }
 
-/// The elements of each object, ascending, and the index of each element within its object.
+/// The elements of each object, ascending, and the index of each element in its object.
 struct Shares {
     std::vector<Index> offsets, items, place;
     Shares(const std::vector<Index>& object_of, std::size_t objects)
@@ -234,7 +235,7 @@ struct Shares {
     }
 };
 
-/// The part of the mesh that is this object.
+/// The object as a separate mesh.
 Mesh extract(const Mesh& mesh, const Shares& vertices, const Shares& wedges, const Shares& faces,
              Index object) {
     Mesh own;
@@ -289,7 +290,7 @@ void compact_primitives(Mesh& mesh) {
 /// The division into parts: by objects, or by groups in a file without objects.
 struct Division {
     Naming names;
-    std::vector<Index> of_vertex; ///< empty: objects share vertices, so the surface stays a single part
+    std::vector<Index> of_vertex; ///< empty if objects share vertices and stay a single part
     Event::Kind kind = Event::Kind::object;
     bool divides() const { return !of_vertex.empty(); }
 };
@@ -334,7 +335,7 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
     };
     std::vector<std::string> words;
     for (const auto& [word, count] : s.skipped) {
-        if (word == "p" && s.faces() == 0) continue; // all vertices of a cloud are kept
+        if (word == "p" && s.faces() == 0) continue; // a point cloud keeps all vertices
         words.push_back(fmt::format("{} ({})", in_quotes(word), count));
     }
     if (!words.empty())
@@ -445,12 +446,12 @@ Attribute marked_ends(const Statements& s) {
     return {std::string(ends_of_lines), Domain::vertex, Role::generic, 1, false, std::move(marked)};
 }
 
-/// The number of groups of lines that are lost: nonzero if an object has lines in several groups, because
-/// parts of lines follow objects only.
+/// The number of line groups that are lost. It is nonzero if an object has lines in several groups, because
+/// lines become one part per object.
 std::size_t lost_groups_of_lines(const Statements& s) {
     const Naming objects = naming(s, Event::Kind::object, "", s.lines(), &Event::line);
     const Naming groups = naming(s, Event::Kind::group, "", s.lines(), &Event::line);
-    std::vector<Index> last_of(objects.names.size(), none); // group of each object
+    std::vector<Index> last_of(objects.names.size(), none); // the last group of each object
     bool any = false;
     for (std::size_t l = 0; l < s.lines(); ++l) {
         const Index group = groups.of_face[l];
@@ -505,7 +506,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
 
 namespace {
 
-/// Perhaps: OBJ has no magic number. The first statement decides.
+/// At most "perhaps", because OBJ has no magic number. The first statement decides.
 int sniff(Span bytes) {
     static const std::string nameless;
     Text text(as_text(bytes.first(std::min<std::size_t>(bytes.size(), 65536))), nameless, "E-OBJ", '#');
@@ -515,7 +516,7 @@ int sniff(Span bytes) {
     return 0;
 }
 
-/// Adds all images that libraries name, existing or not, used or not.
+/// Adds all images that libraries name, even if unused or missing.
 void add_images(const Input& input, const std::vector<Event>& libraries, FileHeader& header) {
     ReadLog ignored; // reading the file repeats these warnings
     OrderedSet<std::filesystem::path> images;
@@ -588,7 +589,7 @@ std::vector<NamedImage> images_of(const std::filesystem::path& path,
     return maker.images();
 }
 
-/// Files name their libraries near the beginning. The parts need the whole file.
+/// Reads only the libraries, which files name near the beginning. Finding the parts needs the whole file.
 void peek(const Input& input, FileHeader& header) {
     take_stated(header, stated_in_lines(as_text(input.bytes())));
     std::vector<Event> libraries;

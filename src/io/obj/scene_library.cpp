@@ -22,8 +22,8 @@ std::vector<std::string> material_names(const std::vector<Material>& materials) 
     return names;
 }
 
-/// Whether the material equals the other without its textures, so that a reader makes the same of both for
-/// faces without texture coordinates. A missing Pr means the same roughness as Pr 1.
+/// Whether `plain` equals `textured` without its textures. Both then give the same material for faces
+/// without texture coordinates. A missing Pr equals Pr 1.
 bool is_without_textures(const Description& plain, Description textured) {
     textured.maps.clear();
     if (!plain.roughness && textured.roughness == 1.0) textured.roughness.reset();
@@ -61,8 +61,8 @@ void SceneLibrary::describe_used(const Scene& scene) {
     }
 }
 
-/// A reader splits a textured material into two if some of its faces lack texture coordinates. This merges
-/// the two again.
+/// Merges materials that a reader has split: a textured material becomes two if some of its faces lack
+/// texture coordinates.
 void SceneLibrary::join_untextured(const Scene& scene) {
     std::multimap<std::string, Index> with_maps;
     for (const auto& [m, description] : described_)
@@ -81,7 +81,7 @@ void SceneLibrary::join_untextured(const Scene& scene) {
     }
 }
 
-/// Keeps names that are spelled differently here, or that several materials have.
+/// Stores, in comments, names that usemtl spells differently or that several materials have.
 void SceneLibrary::keep_names(const Scene& scene) {
     const auto is_control = [](unsigned char c) { return c < ' '; };
     for (auto& [m, description] : described_) {

@@ -9,7 +9,7 @@ class SceneLibrary {
   public:
     SceneLibrary(const Scene& scene, const WriteSettings& settings);
 
-    /// The library's file name; none if the scene has no materials and so no library.
+    /// The library's file name; none if the scene has no materials.
     std::optional<std::string> file_name() const;
     /// The usemtl names, by the scene's material index.
     const std::vector<std::string>& names() const { return names_; }
@@ -25,8 +25,8 @@ class SceneLibrary {
     LibraryImages images_;
     LibraryLosses losses_;
     std::vector<std::string> names_;
-    std::map<Index, Description> described_; ///< by the index of materials that faces or lines use
-    std::vector<bool> textured_;             ///< by material: whether faces with texture coordinates use it
+    std::map<Index, Description> described_; ///< by material index; only materials that faces or lines use
+    std::vector<bool> textured_;             ///< [materials] whether faces with texture coordinates use it
 };
 
 } // namespace facetmill::io::obj

@@ -14,8 +14,8 @@ namespace facetmill::io::obj {
 
 namespace {
 
-/// The distinct values of an attribute in the order of their first wedge, and the value of each wedge.
-/// Vertices that share a texture coordinate or normal thus share a statement.
+/// The distinct values of an attribute in the order of their first wedge, and the value of each wedge. So
+/// vertices with equal texture coordinates or normals share a statement.
 struct Pool {
     std::vector<float> values;
     std::vector<Index> of_wedge;
@@ -121,7 +121,7 @@ void put_faces(Bytes& bytes, const Mesh& mesh, Index begin, Index end, const Poo
     });
 }
 
-/// Writes a statement before a face whose attribute value differs from the previous face.
+/// Writes a statement before each face whose attribute value differs from the previous face's.
 struct Switch {
     const Attribute* attribute = nullptr;
     double current = -1;
@@ -130,7 +130,7 @@ struct Switch {
 
 class PartWriter {
   public:
-    /// current: the material in force in the file so far.
+    /// current: the material that the last usemtl selected.
     PartWriter(Bytes& bytes, const Mesh& mesh, const std::vector<std::string>& materials, Index& current)
         : bytes_(bytes), mesh_(mesh),
           materials_(materials), group_{number("group")}, smoothing_{number("smoothing_group")},
@@ -171,7 +171,7 @@ class PartWriter {
     }
 
   private:
-    /// The usemtl statement, if the material is not already in force.
+    /// The usemtl statement, if the material changes.
     std::string use(Index material) {
         if (material == material_) return {};
         material_ = material;
@@ -298,7 +298,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         steps.next();
         put_values(bytes, "vn", normal);
         steps.next();
-        const ProgressScope silent(nullptr); // it writes in pieces, by material
+        const ProgressScope silent(nullptr); // lines are written in pieces, by material
         PartWriter writer(bytes, *world, library.names(), material);
         writer.faces(uv, normal, offsets);
         writer.lines(offsets);

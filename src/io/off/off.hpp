@@ -11,8 +11,8 @@ struct Kind {
     bool uvs = false, colours = false, normals = false, binary = false;
 };
 
-/// Reads the optional keyword and the word BINARY after it, up to the counts. Throws malformed (E-OFF) for
-/// unsupported kinds.
+/// Reads up to the counts: the optional keyword, and the word BINARY if it follows. Throws a malformed-input
+/// error (E-OFF) for unsupported kinds.
 Kind read_kind(Text& text);
 
 [[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);

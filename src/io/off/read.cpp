@@ -16,7 +16,7 @@ namespace facetmill::io::off {
 
 namespace {
 
-/// The prefixes before OFF, in the order that Geomview fixes; none if the word is not such a keyword.
+/// Parses a keyword: OFF with prefixes in the order that Geomview requires. None for other words.
 std::optional<Kind> kind_named(std::string_view word) {
     if (!word.ends_with("OFF")) return {};
     word.remove_suffix(3);
@@ -36,11 +36,12 @@ std::optional<Kind> kind_named(std::string_view word) {
     return word.empty() ? std::optional(kind) : std::nullopt;
 }
 
-/// Colours are bytes or fractions. All numbers decide together, because "1 0 0" alone may be either.
+/// Colours are bytes or fractions. All numbers of the file decide together, because "1 0 0" alone may be
+/// either.
 struct Colours {
-    std::vector<float> values; ///< four each; negative: missing
-    std::size_t most = 0;      ///< numbers of the longest colour
-    bool points = false;       ///< a number has a decimal point
+    std::vector<float> values; ///< four per colour; negative: missing
+    std::size_t most = 0;      ///< the largest count of numbers in a colour
+    bool points = false;       ///< true if a number has a decimal point
     double largest = 0;
 
     void add(std::span<const double> given, bool whole) {
@@ -146,11 +147,11 @@ class TextReader {
         if (kind_.colours) colour(out_.vertex_colours, kind_.uvs ? 2 : 0);
         if (kind_.uvs) {
             out_.uvs.push_back(static_cast<float>(text_.real("u")));
-            out_.uvs.push_back(1 - static_cast<float>(text_.real("v"))); // glTF counts from the top
+            out_.uvs.push_back(1 - static_cast<float>(text_.real("v"))); // glTF's v starts at the top
         }
     }
 
-    /// The numbers left on the line except the last `more`: a colour of one to four numbers.
+    /// Reads the numbers left on the line except the last `more`: a colour of one to four numbers.
     void colour(Colours& colours, int more) {
         int left = 0;
         for (Text ahead = text_; !ahead.word_on_line().empty();) ++left;
@@ -222,8 +223,8 @@ class BinaryReader {
     std::int32_t integer() { return static_cast<std::int32_t>(word((at_ += 4) - 4)); }
     float real() { return std::bit_cast<float>(word((at_ += 4) - 4)); }
 
-    /// Geomview specifies big-endian, but other programs write their native order. In the wrong order the
-    /// counts are huge.
+    /// Geomview specifies big-endian, but other programs write their native order. Read in the wrong order,
+    /// the counts are huge.
     void choose_order() {
         const auto too_many = [&] {
             return word(at_) > bytes_.size() / 12 || word(at_ + 4) > bytes_.size() / 4;
@@ -252,8 +253,8 @@ class BinaryReader {
         }
     }
 
-    /// Geomview writes a count of colour numbers after each face; other programs do not. The reading that
-    /// ends exactly at the end of the file wins.
+    /// Geomview writes a count of colour numbers after each face; other programs do not. The interpretation
+    /// that ends exactly at the end of the file is correct.
     bool faces_have_colours(std::int64_t faces) const {
         std::size_t at = at_;
         for (std::int64_t f = 0; f < faces; ++f) {
@@ -302,7 +303,7 @@ Kind read_kind(Text& text) {
     std::string_view word = text.word();
     auto kind = kind_named(word);
     if (!kind && word.starts_with("OFF") && word.size() > 3) {
-        // "OFF8 6 12": no space between the keyword and the count.
+        // In "OFF8 6 12", no space separates the keyword and the count.
         text = start;
         text.at_end();
         for (const char c : {'O', 'F', 'F'}) text.take(c);

@@ -12,7 +12,7 @@
 namespace facetmill::io {
 
 struct CleanUp {
-    std::filesystem::path path, aside{}; ///< aside: the file to rename to path; empty: remove path
+    std::filesystem::path path, aside{}; ///< aside: the file to rename to `path`. Empty: remove `path`
     bool directory = false;
     std::atomic<bool> active{true};
     CleanUp* next = nullptr;
@@ -49,7 +49,7 @@ void undo_all() {
             else
                 rename_file(e->aside, e->path);
         }
-    for (const CleanUp* e = entries; e; e = e->next) // the latest first
+    for (const CleanUp* e = entries; e; e = e->next) // newest first
         if (e->active && e->directory) remove_folder(e->path);
 }
 

@@ -20,7 +20,7 @@ void keep(CleanUp* entry);
 
 /// Ends the process as a signal does, from code that must not throw or allocate. Removes staged files and
 /// writes the message to standard error. Waits while another thread renames outputs. Returns only if the
-/// calling thread itself is renaming outputs, because it will end or throw itself.
+/// calling thread is renaming outputs, because that thread will end or throw itself.
 void end_at_once(int exit_code, std::string_view message);
 
 /// Delays signals during the renames of a commit. The process ends when this object is destroyed. A second

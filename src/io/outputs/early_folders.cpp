@@ -27,11 +27,11 @@ void EarlyFolders::use(const fs::path& folder, bool made) {
 
 void EarlyFolders::make(const fs::path& folder) {
     std::error_code error;
-    constexpr int max_attempts = 100; // another run may remove the folder that it made
+    constexpr int max_attempts = 100; // another run may remove a folder that it had made
     for (int attempt = 0; attempt < max_attempts && !folder.empty(); ++attempt) {
         if (fs::is_directory(folder, error)) {
             use(folder, false);
-            if (fs::is_directory(folder, error)) return; // locked, so it stays
+            if (fs::is_directory(folder, error)) return; // this object holds the folder locked, so it stays
         } else {
             make(folder.parent_path());
             if (make_folder(folder)) return use(folder, true);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Commands without an output folder write files too: diff, render, info, new.
+// The hint for commands without an output folder: diff, render, info, new.
 constexpr const char* write_elsewhere =
     "write elsewhere: under another path, or (run, batch, pipe) with another --output-dir";
 

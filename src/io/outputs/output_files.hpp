@@ -12,10 +12,10 @@ namespace facetmill::io {
 /// errno.
 [[nodiscard]] std::string hint_to_write(const std::filesystem::path& target, int error);
 
-/// Throws output with a readable message: E-SPACE, E-DIRECTORY, otherwise E-WRITE. error: an errno.
+/// Throws an output error with a readable message: E-SPACE, E-DIRECTORY, otherwise E-WRITE. error: an errno.
 [[noreturn]] void cannot_write(const std::filesystem::path& target, int error);
 
-/// Throws as cannot_write does, with the target's name.
+/// Throws the errors of cannot_write, with the target's name.
 void write_all(const Descriptor& file, Span bytes, const std::filesystem::path& target);
 
 /// Whether the target is a stream, which a rename cannot replace.

@@ -196,7 +196,7 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     if (!stream && !file->is_input && !by_identity_.contains(self) && !settings_.names_only) {
         make_place(*file);
         constexpr std::size_t few = std::size_t{1}
-                                    << 16; // bytes; smaller files cost less than another thread
+                                    << 16; // bytes; smaller files take less time than starting a thread
         parallel_for(
             2, [&](std::size_t i) { i == 0 ? take_sum() : put_bytes(); }, bytes.size() < few ? 2 : 1);
         return hold(std::move(file), self);
@@ -242,7 +242,7 @@ void put_back(const AllRenamed& all) {
 
 } // namespace
 
-/// Treats files that already have the right bytes as such inputs.
+/// Treats files that already have the right bytes like inputs, so that they stay unchanged.
 void Outputs::leave_unchanged() {
     if (!settings_.keep_unchanged) return;
     for (const auto& file : files_) {
@@ -264,7 +264,7 @@ void Outputs::leave_unchanged() {
     }
 }
 
-/// Flushes buffered data of the files that are about to be renamed.
+/// Flushes the contents of the files to be renamed to disk.
 void Outputs::sync_contents() const {
     if (!settings_.sync) return;
     for (const auto& file : files_) {
@@ -335,7 +335,7 @@ void Outputs::commit() {
         std::any_of(files_.begin(), files_.end(), [](const auto& f) { return is_streamed(*f); });
     std::vector<Renamed> all;
     leave_unchanged(); // reading may take long for large files, so do it before signals wait
-    sync_contents();   // the same applies to the disk
+    sync_contents();   // writing to disk may take long, too
     {
         const HoldSignals hold;
         all = rename_all(streams);

@@ -18,7 +18,7 @@ struct CleanUp; // an action to undo on a signal; see io/outputs/clean_up.hpp
 struct CommitSettings {
     bool keep_unchanged = false; ///< leave files that already have the right bytes unchanged, with their time
     bool sync = true;            ///< sync the contents of a file before its rename, and folders at the end
-    bool names_only = false;     ///< only list the files: write nothing and commit nothing
+    bool names_only = false;     ///< only list the files, without writing or committing
 };
 
 /// The outputs of a run.
@@ -30,7 +30,7 @@ class Outputs {
     ~Outputs(); ///< removes uncommitted files, and directories made for them
 
     struct File {
-        std::filesystem::path target; ///< as given
+        std::filesystem::path target; ///< the path as given
         std::filesystem::path
             resolved; ///< the file to replace, with symbolic links followed, so that links stay links
         std::filesystem::path temporary; ///< empty for streams (-, devices, FIFOs), which are kept in memory
@@ -43,26 +43,26 @@ class Outputs {
         CleanUp* clean_up = nullptr;
     };
 
-    /// Protects an input with its SHA-256: from now on, only the same bytes may be written to it.
+    /// Protects an input with its SHA-256: from now on, only the same bytes may be written to this path.
     void protect(const std::filesystem::path& input, std::string sum);
-    /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY,
-    /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
-    /// already with other bytes). "-" is standard output.
+    /// Stages a file; makes its directory when missing. Throws an output error (E-WRITE, E-SPACE,
+    /// E-DIRECTORY, E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that
+    /// was staged already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
-    /// The same for data that is not in memory: `produce` passes it piece by piece. The target must not be a
+    /// Stages data that is not in memory: `produce` passes it piece by piece. The target must not be a
     /// stream. Inputs and already staged files are refused, whatever their bytes.
     using Put = std::function<void(Span)>;
     const File& add(const std::filesystem::path& target, const std::function<void(const Put&)>& produce,
                     const Mark& where = {});
-    /// Before anything is staged.
+    /// Call it before anything is staged.
     void set(const CommitSettings& settings) { settings_ = settings; }
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;
     /// Renames all files, then writes the streams. On an error it removes all remaining temporaries,
     /// restores replaced files, and throws. Data that a stream's reader received cannot be taken back. A
     /// signal during the renames waits for the last rename. A signal during streaming also restores the
-    /// files. With sync, a loss of power leaves each file either unchanged or complete, but some of several
-    /// may be new.
+    /// files. With sync, a power failure leaves each file either unchanged or complete, but some files may
+    /// be new and others old.
     void commit();
     /// Discards all staged files, after a failed run.
     void discard();
@@ -75,11 +75,11 @@ class Outputs {
     };
     void make_directory(const std::filesystem::path& directory);
     void remove_stale(const std::filesystem::path& directory);
-    /// A renamed file, and the file that it replaced (empty: none).
+    /// A renamed file, and the old file that was set aside (empty: none).
     struct Renamed {
         const File* file;
         std::filesystem::path aside;
-        CleanUp* clean_up = nullptr; ///< as long as streams may fail
+        CleanUp* clean_up = nullptr; ///< needed while streams may fail
     };
     std::unique_ptr<File> file_for(const std::filesystem::path& target, const Mark& where) const;
     void make_place(const File& file);
@@ -95,10 +95,10 @@ class Outputs {
     CommitSettings settings_;
     std::vector<std::unique_ptr<File>> files_;
     std::map<std::filesystem::path, const File*>
-        by_identity_; ///< the key is the replaced file; for streams, the name
+        by_identity_; ///< the key is the replaced file or, for streams, the name
     std::vector<Directory> made_directories_;
     std::set<std::filesystem::path> swept_;
-    std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
+    std::map<std::filesystem::path, std::string> inputs_; ///< SHA-256 by identity
 };
 
 /// Writes a single file atomically (reports, --save, depfiles). "-" is standard output.

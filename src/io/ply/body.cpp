@@ -77,7 +77,7 @@ struct Body::Reader {
         std::size_t least = 0;
         for (const auto& p : e.properties)
             least += encoding == Encoding::ascii ? 2 : size_of(p.list ? p.count_type : p.type);
-        // The last word of a text needs no space after it.
+        // The last word of a text file may lack a space after it.
         if (least > 0 && e.count > (left() + 1) / least)
             malformed(input.name(), e.line, "E-PLY",
                       fmt::format("element '{}' is to have {} items, the {} bytes left hold at most {}",

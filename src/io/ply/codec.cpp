@@ -13,7 +13,7 @@ namespace facetmill::io::ply {
 
 namespace {
 
-/// Texture coordinates, which images need, and texture numbers of faces.
+/// Whether the element has this property.
 bool has_property(const Header& header, std::string_view element, std::string_view name) {
     for (const auto& e : header.elements)
         if (e.name == element)
@@ -33,7 +33,8 @@ bool has_texture_points(const Header& header) {
     return has_property(header, "face", "texcoord");
 }
 
-/// If faces are numbered, all images: only reading the whole file finds the used numbers.
+/// Lists the images. If faces have texture numbers, it lists all images, because only reading the whole file
+/// finds the used numbers.
 std::vector<NamedImage> images_of(const std::filesystem::path& path,
                                   const std::vector<std::filesystem::path>& asset_roots) {
     const Input input = Input::open(path).with_asset_roots(asset_roots);

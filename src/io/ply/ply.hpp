@@ -26,7 +26,7 @@ struct Element {
     std::string name;
     std::size_t count = 0;
     std::vector<Property> properties;
-    std::int64_t line = 0; ///< of the declaration in the header
+    std::int64_t line = 0; ///< the header line that declares the element
 };
 
 enum class Encoding { ascii, little_endian, big_endian };
@@ -34,20 +34,20 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
-    std::size_t size = 0;              ///< the offset of the first element in bytes
+    std::size_t size = 0;              ///< the length of the header in bytes
     std::int64_t lines = 0;            ///< the number of header lines
-    std::vector<std::string> textures; ///< from 'TextureFile' comments of some programs
+    std::vector<std::string> textures; ///< file names from 'TextureFile' comments of some programs
     Stated stated{};                   ///< the unit and up axis that comments state
 };
 
-/// Reads the header; throws malformed (E-PLY) with the line.
+/// Reads the header; throws a malformed-input error (E-PLY) with the line.
 [[nodiscard]] Header read_header(const Input& input);
 
 /// The values of a property for all items of its element.
 struct Column {
     AttributeData values;
     std::vector<std::size_t>
-        offsets; ///< for a list: [count + 1] into values; empty if all items have `each` values
+        offsets; ///< [count + 1] list offsets into values; empty if all items have `each` values
     std::size_t each = 1;
 
     std::size_t begin(std::size_t i) const { return offsets.empty() ? i * each : offsets[i]; }
@@ -67,7 +67,7 @@ class Body {
     std::unique_ptr<Reader> reader_;
 };
 
-/// The name of the part with the file's lines, if the file also has faces or points.
+/// The name of the part for the file's lines, if the file also has faces or points.
 inline constexpr const char* part_of_lines = "lines";
 
 [[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);

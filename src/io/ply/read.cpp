@@ -207,7 +207,7 @@ void Builder::add_corner_uvs() {
 /// if the faces have no numbers.
 std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
     std::vector<Index> numbers(mesh_.face_count(), 0);
-    if (faces_.count() != numbers.size()) return numbers; // faces of strips
+    if (faces_.count() != numbers.size()) return numbers; // strips also made faces
     const auto found = faces_.take({"texnumber"});
     if (found.empty()) return numbers;
     std::visit(
@@ -222,8 +222,8 @@ std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
     return numbers;
 }
 
-/// Makes materials of the images that comments name, and a primitive for each that faces use. Images need
-/// texture coordinates.
+/// Makes materials from the images that comments name, and a primitive for each image that faces use. Images
+/// need texture coordinates.
 void Builder::add_textures(Scene& scene, const Header& header) {
     if (header.textures.empty()) return;
     const std::vector<Index> numbers = texture_of_faces(header.textures.size());
@@ -270,7 +270,8 @@ Scene Builder::read() {
     std::vector<double> lengths;
     for (const Element& e : header.elements)
         lengths.push_back(static_cast<double>(e.count * e.properties.size()));
-    lengths.push_back(std::accumulate(lengths.begin(), lengths.end(), 1.0) / 2); // the mesh of it
+    lengths.push_back(std::accumulate(lengths.begin(), lengths.end(), 1.0) /
+                      2); // used below for the lines' mesh
     ProgressSteps steps(lengths);
     for (const Element& e : header.elements) {
         Table table{&e, body.read(e), std::vector<bool>(e.properties.size(), false)};
@@ -315,8 +316,8 @@ Scene Builder::read() {
     return scene;
 }
 
-/// Whether lines use every vertex of a mesh without faces. Other vertices are a point cloud, and the lines
-/// then become a separate part.
+/// Whether lines use every vertex of a mesh without faces. If not, the other vertices are a point cloud, and
+/// the lines become a separate part.
 bool is_lines_alone(const Mesh& mesh) {
     if (mesh.face_count() > 0) return false;
     const std::vector<std::uint8_t> used = marked_ends_of_lines(mesh);

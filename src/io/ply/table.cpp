@@ -13,7 +13,7 @@ namespace facetmill::io::ply {
 
 namespace {
 
-/// A number of a file as T; values beyond T's range are clamped.
+/// Converts a number of the file to T, and clamps it to T's range.
 template <class T, class S>
 T fitted(S value) {
     if constexpr (std::is_same_v<T, S> || std::is_floating_point_v<T>) {
@@ -27,7 +27,7 @@ T fitted(S value) {
     }
 }
 
-/// Interleaves columns as T.
+/// Interleaves columns of numbers of type T.
 template <class T>
 std::vector<T> interleaved(const Table& table, const std::vector<std::size_t>& columns) {
     std::vector<T> all(table.count() * columns.size());

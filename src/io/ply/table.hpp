@@ -10,7 +10,7 @@
 
 namespace facetmill::io::ply {
 
-/// An element with its values; readers take properties out of it one by one.
+/// An element with its values. Readers take properties out of it one by one.
 struct Table {
     const Element* element = nullptr;
     std::vector<Column> columns;
@@ -19,16 +19,16 @@ struct Table {
     std::size_t count() const { return element ? element->count : 0; }
     const Property& property(std::size_t p) const { return element->properties[p]; }
 
-    /// Takes the columns of these names if all exist.
+    /// Takes out the columns with these names, if all exist.
     std::vector<std::size_t> take(std::initializer_list<std::string_view> names, bool list = false);
 };
 
-/// The names of texture coordinates of vertices.
+/// The property names of vertices' texture coordinates.
 inline constexpr std::pair<const char*, const char*> texture_points[] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
 
-/// Adds colours as COLOR_0 (3 or 4 components). Integers are fractions of their type's largest value, with
-/// 16 bits if all are 16-bit, else 8. Floats stay unchanged.
+/// Adds colours as COLOR_0 (3 or 4 components). Integers become fractions of their type's largest value: 16
+/// bits if all columns have 16 bits, otherwise 8. Floats stay unchanged.
 void add_colours(Table& table, Mesh& mesh, Domain domain);
 /// Adds nx, ny and nz as NORMAL.
 void add_normals(Table& table, Mesh& mesh);

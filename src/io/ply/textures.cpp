@@ -8,7 +8,7 @@ namespace facetmill::io::ply {
 
 namespace {
 
-/// None, with a warning, if the image cannot be read or glTF does not support its type.
+/// The image's bytes. None, with a warning, if the image cannot be read or glTF does not support its type.
 std::optional<Bytes> texture_bytes(const Input& input, const std::string& texture, ReadLog& log) {
     auto bytes = read_image(input, relative_path_of(texture), texture, "TextureFile", log);
     const std::string type = bytes ? media_type(*bytes) : "";

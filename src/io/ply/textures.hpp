@@ -1,5 +1,5 @@
 #pragma once
-// Images that the `TextureFile` comments of a PLY name, a convention of some programs.
+// Images named by `TextureFile` comments in a PLY, a convention of some programs.
 
 #include "io/codec.hpp"
 #include "io/material_document.hpp"

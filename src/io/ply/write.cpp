@@ -15,7 +15,7 @@ namespace facetmill::io::ply {
 
 namespace {
 
-/// A scalar property to be written: component `component` of every row.
+/// A scalar property to be written: one component of every row.
 struct Out {
     std::string name;
     std::shared_ptr<const AttributeData> values;
@@ -49,7 +49,8 @@ std::vector<std::string> names_of(const Attribute& a) {
     return names;
 }
 
-/// The attribute's values, one element per row; texture coordinates count from the bottom in PLY.
+/// The attribute's values, one element per row. Texture coordinates are flipped, because v starts at the
+/// bottom in PLY.
 std::shared_ptr<const AttributeData> rows_of(const Attribute& a, const Mesh& mesh, bool by_wedge) {
     AttributeData data = a.data;
     const auto n = static_cast<std::size_t>(a.components);
@@ -319,8 +320,8 @@ std::pair<Index, Index> face_sizes(const Mesh& mesh) {
     return sizes;
 }
 
-/// Notes faces of different sizes in a binary file, because readers that expect rows of equal length fail.
-/// It is not a loss: MeshLab and Blender read them.
+/// Adds a note if a binary file has faces of different sizes, because readers that expect rows of equal
+/// length fail. MeshLab and Blender read such files.
 void note_polygons(Written& written, Index smallest, Index largest) {
     if (smallest == largest) return;
     written.warnings.push_back({Severity::note,

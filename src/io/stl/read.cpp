@@ -26,7 +26,7 @@ bool has_binary_size(Span bytes) {
     return bytes.size() >= head && bytes.size() == head + record * std::size_t{promised_triangles(bytes)};
 }
 
-/// Indexes three corners per face: one vertex per position. Wedges are dropped, because the mesh has no
+/// Builds indexed triangles with one vertex per position. Wedges are dropped, because the mesh has no
 /// attributes.
 void index_by_position(Mesh& mesh, const ReadSettings& settings) {
     mesh.corners.resize(mesh.positions.size());
@@ -54,7 +54,7 @@ class Records {
     std::array<float, 3> corner(std::size_t c) const {
         return at<std::array<float, 3>>(c / 3 * record + 12 * (c % 3 + 1));
     }
-    /// The same bits as number_places() compares.
+    /// The bits that number_places() compares.
     FloatBits operator()(std::size_t c) const {
         auto bits = std::bit_cast<FloatBits>(corner(c));
         for (std::uint32_t& b : bits)
@@ -104,7 +104,7 @@ void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& setti
         });
         return;
     }
-    const std::size_t expected = records.size() / 2; // for a closed surface
+    const std::size_t expected = records.size() / 2; // vertices of a closed surface
     number_places(
         mesh.corners, expected, records,
         [&](std::size_t places) {
@@ -112,7 +112,7 @@ void add_triangles(Mesh& mesh, const Records& records, const ReadSettings& setti
             return true;
         },
         [&](std::size_t place, std::size_t c, const FloatBits& key) {
-            const bool zero = key[0] == 0 || key[1] == 0 || key[2] == 0; // may be -0 at this corner
+            const bool zero = key[0] == 0 || key[1] == 0 || key[2] == 0; // may be -0 in this corner
             put(place, zero ? records.corner(c) : std::bit_cast<std::array<float, 3>>(key));
         });
 }
@@ -189,7 +189,7 @@ class TextReader {
             if (same_word(word, "facet")) {
                 read_facet(mesh);
             } else if (same_word(word, "endsolid")) {
-                text_.next_line(); // the same name, another, or none
+                text_.next_line(); // skips the name, which may differ or be missing
                 return;
             } else {
                 ahead.expected("'facet' or 'endsolid'");

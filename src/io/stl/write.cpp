@@ -39,7 +39,7 @@ Triangle triangle(const Mesh& mesh, Index f) {
     return t;
 }
 
-/// The mesh itself if all faces are triangles, else its triangulation.
+/// Holds the mesh itself if all faces are triangles, otherwise its triangulation.
 class Triangles {
   public:
     explicit Triangles(const Mesh& mesh) : given_(&mesh) {

@@ -97,7 +97,8 @@ class ModelReader {
         return text ? natural(e, attribute, *text) : otherwise;
     }
 
-    /// Twelve numbers, by columns of the usual matrix, because 3MF multiplies row vectors from the left.
+    /// Reads twelve numbers: the columns of the usual matrix, because 3MF multiplies row vectors from the
+    /// left.
     Transform transform(const Element& e) const {
         Transform t;
         const auto given = e.find("transform");
@@ -118,7 +119,7 @@ class ModelReader {
         return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e)};
     }
 
-    /// "#RRGGBB" or "#RRGGBBAA".
+    /// Reads "#RRGGBB" or "#RRGGBBAA".
     Colour colour(const Element& e, const char* attribute) const {
         const std::string_view text = trimmed(need(e, attribute));
         Colour c{0, 0, 0, 255};
@@ -243,7 +244,7 @@ class ModelReader {
     }
     void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise) const {
         const auto group = model_.groups.find(p.group == none ? otherwise : p.group);
-        if (group == model_.groups.end()) return; // of an unsupported kind, or missing
+        if (group == model_.groups.end()) return; // the group is missing or of an unsupported kind
         for (const std::uint32_t index : p.index)
             if (index != none && index >= group->second.colours.size())
                 malformed(name_, 0, "E-3MF",
@@ -251,12 +252,12 @@ class ModelReader {
                                       group->first, group->second.colours.size()));
     }
 
-    std::string name_; ///< for messages: "a.3mf/3D/3dmodel.model"
+    std::string name_; ///< shown in messages: "a.3mf/3D/3dmodel.model"
     const std::string& path_;
     std::size_t max_vertices_, vertices_ = 0;
     Model model_;
     bool is_model_ = false;
-    std::vector<std::string> open_; ///< the enclosing elements that are read
+    std::vector<std::string> open_; ///< the enclosing supported elements
     int skipping_ = 0;              ///< the depth inside an unsupported element
     std::map<std::string, std::string> spaces_;
     Object* object_ = nullptr;
@@ -279,7 +280,7 @@ Unit unit_of_model(Span xml, const std::string& archive, const std::string& path
     };
     try {
         read_xml(xml, archive + path, handler);
-    } catch (const Found&) { // the first element has the unit
+    } catch (const Found&) { // the first element has been read
     }
     return reader.unit();
 }

@@ -29,17 +29,17 @@ using Colour = std::array<std::uint8_t, 4>; ///< sRGB and alpha
 
 /// The source of a triangle's properties: a group of resources and three indices into it.
 struct Properties {
-    std::uint32_t group = none; ///< none: the object's properties
+    std::uint32_t group = none; ///< none: uses the object's properties
     std::array<std::uint32_t, 3> index{none, none, none};
 };
 
 struct ObjectId {
-    std::string path; ///< of the model part: "/3D/3dmodel.model"
+    std::string path; ///< the path of the model part: "/3D/3dmodel.model"
     std::uint32_t id = 0;
     auto operator<=>(const ObjectId&) const = default;
 };
 
-struct Use { ///< a component, or an item to build
+struct Use { ///< a component, or a build item
     ObjectId object;
     Transform transform;
 };
@@ -49,13 +49,13 @@ struct Object {
     Properties properties;
     std::vector<Vec3> positions;
     std::vector<Index> corners;
-    std::vector<Properties> triangles; ///< [triangles], or empty: all as the object
+    std::vector<Properties> triangles; ///< [triangles]; empty: all have the object's properties
     std::vector<Use> components;
 };
 
 struct Group {
-    bool materials = false;         ///< named materials; else colours
-    std::vector<std::string> names; ///< of materials
+    bool materials = false;         ///< true for named materials, false for colours
+    std::vector<std::string> names; ///< names of materials
     std::vector<Colour> colours;
 };
 
@@ -68,12 +68,12 @@ struct Model {
     std::map<std::string, std::size_t> skipped; ///< unsupported elements and their counts
 };
 
-/// path: of the part in the archive. Throws as read_xml, E-EXTENSION for an unsupported required extension,
-/// limit (E-SIZE) beyond max_vertices.
+/// path: the part's path in the archive. Throws the errors of read_xml, E-EXTENSION for an unsupported
+/// required extension, and a limit error (E-SIZE) beyond max_vertices.
 [[nodiscard]] Model read_model(Span xml, const std::string& archive, const std::string& path,
                                std::size_t max_vertices);
 
-/// The unit of the model part; reads only its first element. Throws as read_model.
+/// The unit of the model part; reads only its first element. Throws the errors of read_model.
 [[nodiscard]] Unit unit_of_model(Span xml, const std::string& archive, const std::string& path);
 
 } // namespace facetmill::io::threemf

@@ -56,13 +56,13 @@ class SceneMaker {
         if (const auto known = models_.find(path); known != models_.end()) return known->second;
         const auto xml = archive_.file(path);
         if (!xml) malformed(name_, 0, "E-3MF", fmt::format("the archive has no model '{}'", path));
-        constexpr double memory_per_byte = 2; // for positions and corners, per byte of their text
+        constexpr double memory_per_byte = 2; // memory for positions and corners, per byte of their text
         require_memory(memory_per_byte * static_cast<double>(xml->size()), fmt::format("reading '{}'", name_),
                        "use a machine with more memory");
         return models_.emplace(path, read_model(*xml, name_, path, settings_.max_vertices)).first->second;
     }
 
-    /// The objects of a model without build items, except components of others.
+    /// The objects of a model without build items, except objects that are components of others.
     static std::vector<Use> unused(const Model& model, const std::string& path) {
         std::set<std::uint32_t> components;
         for (const auto& [id, object] : model.objects)
@@ -74,8 +74,8 @@ class SceneMaker {
         return items;
     }
 
-    /// Adds the parts of an object: its own mesh and its components. name: the enclosing object's; it
-    /// replaces the object's own name if the enclosing object is an instance with only this component.
+    /// Adds the parts of an object: its own mesh and its components. name: the enclosing object's name. It
+    /// replaces the object's own name if the enclosing object has only this component.
     void place(const Use& use, const Transform& above, const std::string& name,
                bool is_name_of_instance = false) {
         constexpr std::size_t most_uses = 1'000'000, deepest = 32;
@@ -218,13 +218,14 @@ class SceneMaker {
     MaterialDocument document_;
     Scene scene_;
     std::map<std::string, Model> models_;
-    std::map<ObjectId, std::size_t> first_part_; ///< of each object, because repeated items copy it
+    std::map<ObjectId, std::size_t> first_part_; ///< the first part of each object, which repeated items copy
     std::map<MaterialId, Index> materials_;
     std::vector<ObjectId> open_;
     std::size_t uses_ = 0, vertices_ = 0;
 };
 
-/// A zip archive. Its content types show whether it holds a model, and all writers put them near the start.
+/// Recognises a zip archive whose content types list a model. All writers put the content types near the
+/// start.
 int sniff(Span bytes) {
     const std::string_view text = as_text(bytes);
     if (!text.starts_with("PK\3\4")) return 0;
@@ -233,7 +234,7 @@ int sniff(Span bytes) {
     return tail.find(".model") != std::string_view::npos ? 2 : 1;
 }
 
-/// The unit is at the start of the model.
+/// Reads only the unit, which is at the start of the model.
 void peek(const Input& input, FileHeader& header) {
     Archive archive(input.bytes(), input.name());
     const std::string path = main_model(archive, input.name());

@@ -41,15 +41,16 @@ std::uint32_t packed_colour(const Colour& c) {
 const char* unit_name(Unit unit) {
     for (const UnitName& known : unit_names)
         if (known.unit == unit) return known.name;
-    if (unit == Unit::unknown) return "millimeter"; // the format's own: write has warned
+    if (unit == Unit::unknown) return "millimeter"; // the format's default unit; `write` has warned
     throw Error(ErrorKind::stage, "E-UNIT", fmt::format("3MF has no unit {}", to_string(unit)),
                 "write: {unit: m}");
 }
 
-/// The properties of the triangles of a mesh, as they are written.
+/// The properties of a mesh's triangles, as written.
 class Looks {
   public:
-    /// materials: the index in the group of materials by that of the scene. id: of a group of colours.
+    /// materials: maps the scene's material index to the index in the material group. id: the id of a colour
+    /// group.
     Looks(const Mesh& mesh, const std::vector<Index>& materials, std::uint32_t materials_id, std::uint32_t id)
         : mesh_(mesh), materials_(materials), materials_id_(materials_id), id_(id) {
         const Attribute* a = mesh.find("COLOR_0", Domain::wedge);
@@ -68,7 +69,7 @@ class Looks {
             all_white &= at->first == white;
             of_wedge_[w] = at->second;
         }
-        if (!all_white) return; // white is what a mesh without colours is, so a material counts
+        if (!all_white) return; // a mesh without colours is white, so its material counts
         colours_.clear();
         of_wedge_.clear();
     }
@@ -126,7 +127,7 @@ class ModelWriter {
                    unit_name(scene_.unit), core_space, material_space, FACETMILL_VERSION));
         put_materials();
         const auto first = DistinctParts(scene_).first;
-        std::vector<Object> objects(scene_.parts.size()); // of the meshes that are first
+        std::vector<Object> objects(scene_.parts.size()); // objects of the first of equal meshes
         std::string items;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
             const Part& part = scene_.parts[i];
@@ -134,7 +135,7 @@ class ModelWriter {
                 warn("W-SKIPPED", fmt::format("part '{}' has no faces and is not written to 3MF", part.name));
                 continue;
             }
-            // A mirrored or flattened placement is not allowed, so such a part is written where it stands.
+            // 3MF forbids transforms that mirror or flatten, so such a part is written in world space.
             const bool placed = part.transform.determinant() > 0;
             Object object = placed ? objects[first[i]] : Object();
             if (object.id == 0)
@@ -153,8 +154,8 @@ class ModelWriter {
 
   private:
     struct Object {
-        std::uint32_t id = 0;          ///< 0: none yet
-        std::size_t dropped_faces = 0; ///< that are not in it, however often it is placed
+        std::uint32_t id = 0;          ///< 0: not written yet
+        std::size_t dropped_faces = 0; ///< degenerate faces left out, counted once for all instances
     };
 
     void warn(const char* id, std::string message) {
@@ -219,7 +220,7 @@ class ModelWriter {
         return object;
     }
 
-    /// The same mesh under another name.
+    /// Writes an instance of the object with another name.
     std::uint32_t put_instance(const std::string& name, std::uint32_t object) {
         append(out_,
                fmt::format("  <object id=\"{}\" type=\"model\" name=\"{}\">\n   <components>\n    <component "
@@ -258,7 +259,7 @@ class ModelWriter {
         out += "\"/>\n";
     }
 
-    /// Triangles of one vertex twice are not allowed.
+    /// 3MF forbids triangles that use a vertex twice.
     static bool is_degenerate(const Mesh& mesh, Index f) {
         const Index a = mesh.vertex(3 * f), b = mesh.vertex(3 * f + 1), c = mesh.vertex(3 * f + 2);
         return a == b || b == c || c == a;
@@ -318,7 +319,7 @@ class ModelWriter {
     const WriteSettings& settings_;
     Written& written_;
     Bytes out_;
-    std::vector<Index> index_of_; ///< of materials: in their group
+    std::vector<Index> index_of_; ///< [materials] index in the material group
     std::uint32_t materials_id_ = 0, next_id_ = 1;
     bool polygons_ = false, hides_materials_ = false;
 };

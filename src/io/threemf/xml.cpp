@@ -21,7 +21,7 @@ struct Session {
     const std::string& name;
     const XmlHandler& handler;
     int depth = 0;
-    std::exception_ptr failure; ///< Expat is C: exceptions must not pass through it
+    std::exception_ptr failure; ///< exceptions must not pass through Expat, which is C
 
     std::size_t line() const {
 #if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 9)
@@ -100,7 +100,7 @@ void read_xml(Span text, const std::string& name, const XmlHandler& handler) {
     XML_SetElementHandler(parser.get(), on_start, on_end);
     XML_SetStartNamespaceDeclHandler(parser.get(), on_space);
     XML_SetStartDoctypeDeclHandler(parser.get(), on_document_type);
-    // In pieces, because Expat counts in int.
+    // Passes the text in pieces, because Expat's lengths are int.
     constexpr std::size_t piece = std::size_t{1} << 26;
     for (std::size_t at = 0;; at += piece) {
         const std::size_t size = std::min(piece, text.size() - at);

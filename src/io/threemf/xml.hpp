@@ -1,6 +1,6 @@
 #pragma once
-// XML element by element, by Expat. Document types, and so custom entities, are refused, and the depth is
-// bounded.
+// Reads XML element by element with Expat. Refuses document types, and so custom entities, and bounds the
+// depth.
 
 #include "io/bytes.hpp"
 
@@ -8,16 +8,16 @@
 
 namespace facetmill::io::threemf {
 
-/// The start of an element. Valid until the next element.
+/// The start of an element. It is valid until the next element.
 struct Element {
-    std::string_view space; ///< the namespace's name: "http://..."
-    std::string_view name;  ///< without prefix
+    std::string_view space; ///< the namespace URI: "http://..."
+    std::string_view name;  ///< the local name, without prefix
     std::size_t line = 0;
 
     /// The value of an attribute, named without a namespace or as "namespace|name"; none if absent.
     std::optional<std::string_view> find(std::string_view attribute) const;
 
-    const char** attributes = nullptr; ///< Expat's: names and values in turn, up to a null
+    const char** attributes = nullptr; ///< alternating names and values from Expat, up to a null
 };
 
 struct XmlHandler {
@@ -27,8 +27,8 @@ struct XmlHandler {
     std::function<void(std::string_view prefix, std::string_view space)> space;
 };
 
-/// Reads a document. name: for messages. Throws malformed (E-3MF) with the line, and all errors of the
-/// handler.
+/// Reads a document. name: the document's name in messages. Throws a malformed-input error (E-3MF) with the
+/// line, and passes on the handler's errors.
 void read_xml(Span text, const std::string& name, const XmlHandler& handler);
 
 /// The text escaped for an XML attribute; characters that XML cannot hold become U+FFFD.

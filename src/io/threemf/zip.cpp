@@ -47,7 +47,7 @@ std::uint64_t Archive::number(std::uint64_t at, int bytes) const {
     return value;
 }
 
-/// The record after the directory; a comment of at most 64 KiB may follow it.
+/// Finds the record after the directory. A comment of at most 64 KiB may follow it.
 std::uint64_t Archive::find_end() const {
     if (bytes_.size() >= end_size) {
         const std::uint64_t last = bytes_.size() - end_size, first = last > most16 ? last - most16 : 0;
@@ -121,7 +121,7 @@ std::optional<Bytes> Archive::file(const std::string& path) {
         fail(entry.at,
              fmt::format("the entry '{}' is compressed by method {}, expected deflate", path, entry.method));
     const Span packed = bytes_.subspan(at, entry.packed);
-    // All entries together, since several may share their bytes.
+    // The limit applies to all entries together, because several may share their bytes.
     const std::size_t most = most_unpacked(bytes_.size());
     if (unpacked_ >= most) too_large(name_, most);
     Bytes bytes = unpacked(packed, entry.method == stored ? Packing::none : Packing::deflate,
@@ -139,8 +139,8 @@ void put(Bytes& out, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i) & 255));
 }
 
-/// The fields from the required version to the lengths of the name and the extra field. They are the same in
-/// an entry and in the directory. The time is the earliest that zip can hold: 1 January 1980.
+/// The fields from the required version to the lengths of the name and the extra field. An entry and the
+/// directory store the same fields. The time is the earliest that zip can hold: 1 January 1980.
 void put_description(Bytes& out, const ArchiveFile& file, const Bytes& packed) {
     put(out, 20, 2); // version 2.0
     put(out, 0, 2);  // flags

@@ -8,15 +8,15 @@
 
 namespace facetmill::io::threemf {
 
-/// A reader of an archive. It does not copy the bytes.
+/// Reads an archive, without copying the bytes.
 class Archive {
   public:
-    /// Reads the directory. Throws malformed (E-ZIP) with the offset.
+    /// Reads the directory. Throws a malformed-input error (E-ZIP) with the offset.
     Archive(Span bytes, std::string name);
     /// The contents of an entry, or none if it does not exist. The path is absolute ("/3D/3dmodel.model")
-    /// and compared without case. Throws malformed (E-ZIP) for damaged or encrypted entries and other
-    /// compression methods. Throws limit (E-SIZE) if the total unpacked size is implausible for a mesh (see
-    /// unpacked()).
+    /// and compared without case. Throws a malformed-input error (E-ZIP) for damaged or encrypted entries
+    /// and other compression methods. Throws a limit error (E-SIZE) if the total unpacked size is
+    /// implausible for a mesh (see unpacked()).
     std::optional<Bytes> file(const std::string& path);
 
   private:
@@ -35,15 +35,15 @@ class Archive {
     Span bytes_;
     std::string name_;
     std::map<std::string, Entry> entries_;
-    std::size_t unpacked_ = 0; ///< total bytes so far
+    std::size_t unpacked_ = 0; ///< unpacked bytes so far
 };
 
 struct ArchiveFile {
-    std::string path; ///< relative: "3D/3dmodel.model"
+    std::string path; ///< a relative path: "3D/3dmodel.model"
     Bytes bytes;
 };
 
-/// An archive of deflated files without their times, so that equal files give equal bytes.
+/// Makes an archive of deflated files. It stores no times, so that equal files give equal bytes.
 [[nodiscard]] Bytes make_archive(const std::vector<ArchiveFile>& files);
 
 } // namespace facetmill::io::threemf

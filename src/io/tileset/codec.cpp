@@ -6,7 +6,7 @@ namespace facetmill::io::tileset {
 
 namespace {
 
-/// Detects an object with the keys that a tileset requires and a glTF lacks, near the start.
+/// Detects a JSON object that has, near its start, the keys that a tileset requires and a glTF lacks.
 int sniff(Span bytes) {
     constexpr std::size_t near = 65536;
     const std::string_view text = as_text(bytes).substr(0, near);

@@ -1,7 +1,7 @@
 #pragma once
-// The position grid of a tileset: multiples of a power of two, counted from a point near the middle. Float32
-// and the grids of Draco and quantize hold the positions of every tile exactly. Shared vertices are
-// therefore equal in both tiles.
+// The position grid of a tileset: multiples of a power of two, relative to a point near the middle. Float32
+// and the grids of Draco and quantize store grid positions exactly. Tiles therefore have equal positions at
+// shared vertices.
 
 #include "io/codec.hpp"
 
@@ -13,9 +13,9 @@ struct TilesetFrame {
     double finest = 1; ///< the smallest step allowed to keep vertices apart
 };
 
-/// The frame for positions in the box. The bits of Draco or quantize divide its longest side. The step may
-/// become finer, unless the bits were given, up to float32 precision from the middle to the ends. Throws
-/// stage (E-RANGE) for a box beyond the range of float32.
+/// The frame for positions in the box. The bits of Draco or quantize divide its longest side. Unless the
+/// bits were given, the step may become finer, up to float32 precision at the ends of the box. Throws a
+/// stage error (E-RANGE) for a box beyond the range of float32.
 [[nodiscard]] TilesetFrame usual_frame(const Box& box, const WriteSettings& settings);
 
 /// The frame's step, or the first finer step that merges no more of these vertices than the finest step.

@@ -19,8 +19,8 @@ constexpr std::size_t places_of(std::size_t levels) {
     return ((std::size_t{1} << (2 * levels)) - 1) / (children_of_tile - 1);
 }
 
-/// The levels of the whole tree, and of each subtree file. The latter are as even as possible, and at most
-/// six, because 1,365 tiles take 140 kB.
+/// The levels of the whole tree, and of each subtree file. Subtree files have nearly equal numbers of
+/// levels, at most six, because 1,365 tiles take 140 kB.
 struct Levels {
     std::size_t all = 0, of_subtree = 1;
 
@@ -32,7 +32,7 @@ struct Levels {
     }
 };
 
-/// The Morton index, within its level, of the tile reached by a path of child digits.
+/// The Morton index, in its level, of the tile with this path of child digits.
 std::size_t morton_of(std::string_view way) {
     std::size_t place = 0;
     for (const char digit : way) place = place * children_of_tile + static_cast<std::size_t>(digit - '0');
@@ -86,7 +86,7 @@ class Columns {
 };
 
 struct TilesOfSubtree {
-    std::map<std::size_t, const TreeTile*> tiles; ///< by their index in the subtree
+    std::map<std::size_t, const TreeTile*> tiles; ///< tiles by their index in the subtree
     std::vector<std::size_t> below;               ///< indices of the child subtrees
 };
 
@@ -146,7 +146,7 @@ void add_implicit_tiling(Json& tileset, const std::vector<TreeTile>& tiles, cons
 
 std::vector<OutputFile> subtree_files(const std::vector<TreeTile>& tiles, const std::string& title) {
     const std::size_t levels = Levels(tiles).of_subtree;
-    std::map<std::pair<std::size_t, std::string>, TilesOfSubtree> subtrees; // by level and root
+    std::map<std::pair<std::size_t, std::string>, TilesOfSubtree> subtrees; // subtrees by level and root
     for (const TreeTile& tile : tiles) {
         const std::size_t level = tile.name.size() % levels;
         const std::string root = tile.name.substr(0, tile.name.size() - level);

@@ -2,8 +2,8 @@
 // Implicit tiling of 3D Tiles 1.1 (OGC 22-025r4, "Implicit Tiling"). Level and coordinates in a quadtree or
 // octree identify tiles, templates name their files, and subtree files list the existing tiles.
 //
-// facetmill's trees halve meshes, not space. A child's digit is therefore its position in the quadtree. The
-// subtree files give each tile its own box and error, which replace the values from halving space.
+// facetmill's trees halve meshes, not space. The digit of a child is used as its position in the quadtree.
+// The subtree files give each tile's box and error, which replace the values from halving space.
 
 #include "base/json.hpp"
 #include "io/gltf/document/container.hpp"
@@ -26,8 +26,9 @@ struct ImplicitContents {
     std::vector<std::string> uris;
     std::vector<Input> files;
 };
-/// tile: has implicitTiling. replaces: only tiles without children are shown. Throws malformed (E-GLTF,
-/// E-TILESET, E-JSON, E-URI), missing (E-FILE), and limit (E-LIMIT) for more tiles than files could hold.
+/// tile: has implicitTiling. replaces: only tiles without children are shown. Throws a malformed-input error
+/// (E-GLTF, E-TILESET, E-JSON, E-URI), a missing-file error (E-FILE), and a limit error (E-LIMIT) for more
+/// tiles than files could hold.
 [[nodiscard]] ImplicitContents read_implicit(const gltf::JsonCursor& tile, bool replaces,
                                              const Input& tileset);
 

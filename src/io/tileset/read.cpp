@@ -87,7 +87,7 @@ class Contents {
     Json json_;
 };
 
-/// Merges materials of several files that look the same.
+/// Merges equal materials of several files.
 class MaterialsOfTiles {
   public:
     explicit MaterialsOfTiles(Scene& all) : all_(all) {}
@@ -158,7 +158,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         scene.up = settings.up.value_or(UpAxis::z);
         MaterialsOfTiles materials(scene);
         Part all;
-        double bytes = 0;                     // of all files; a file may count more than once
+        double bytes = 0;                     // bytes of all files; a file may count more than once
         constexpr double memory_per_byte = 4; // as for other meshes
         ProgressSteps steps(std::vector<double>(contents.size() + 1, 1));
         for (const Content& content : contents) {

@@ -11,7 +11,7 @@ namespace {
 
 using gltf::JsonCursor;
 
-constexpr std::size_t most_places = std::size_t{1} << 22; // per subtree
+constexpr std::size_t most_places = std::size_t{1} << 22; // largest number of tiles in a subtree
 constexpr std::size_t most_contents = std::size_t{1} << 22;
 
 [[noreturn]] void too_many(const JsonCursor& place) {
@@ -35,7 +35,7 @@ std::string expanded(std::string text, const Coordinates& at) {
 /// The tree's parameters from an implicit tile.
 struct Scheme {
     std::size_t dimensions = 2, subtree_levels = 1, levels = 1;
-    std::vector<std::string> contents; ///< templates
+    std::vector<std::string> contents; ///< URI templates
     std::string subtrees;
 
     explicit Scheme(const JsonCursor& tile) {

@@ -40,7 +40,7 @@ WriteSettings settings_of_tiles(const WriteSettings& settings) {
     if (own.textures == Textures::automatic) own.textures = Textures::copy;
     own.directory = settings.directory / own.title;
     own.whole_positions = settings.draco.on || settings.quantize.on;
-    own.lattices.clear(); // they apply to the parts, not to the tiles
+    own.lattices.clear(); // lattices apply to the parts, not to the tiles
     return own;
 }
 

@@ -7,13 +7,14 @@
 
 namespace facetmill::io::tileset {
 
-/// A single part in the tileset's frame: the leaf tiles, and the ancestors that ADD refinement keeps
-/// visible. Vertices at the same position are merged. Throws malformed (E-GLTF, E-URI), missing (E-FILE),
-/// and malformed (E-TILESET) for unsupported content: nested tilesets and formats other than GLB.
+/// Reads a tileset as a single part in the tileset's frame. It consists of the leaf tiles, and of ancestors
+/// that ADD refinement keeps visible. Vertices at the same position are merged. Throws a malformed-input
+/// error (E-GLTF, E-URI), a missing-file error (E-FILE), and a malformed-input error (E-TILESET) for
+/// unsupported content: nested tilesets and formats other than GLB.
 [[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 
-/// The neighbours that reading opens: the tile files as the tileset names them, and the subtree files read
-/// to find these. Throws as read.
+/// The neighbours that reading opens: the tile files that the tileset names, and the subtree files that list
+/// tiles. Throws the errors of read.
 struct NamedFiles {
     std::vector<std::string> uris;
     std::vector<std::filesystem::path> read;

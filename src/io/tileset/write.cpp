@@ -28,7 +28,7 @@ AttributeChanges drop_morph_targets(Mesh& mesh) {
     return changes;
 }
 
-/// All parts as a single triangle mesh in world space.
+/// Joins all parts into a single triangle mesh in world space.
 Mesh as_one(const Scene& scene, Written& written) {
     Mesh all;
     for (const Part& part : scene.parts) {
@@ -125,7 +125,7 @@ class TilesetWriter {
     }
 
     WriteSettings settings_;
-    Scene outline_; ///< for every tile: materials and documents
+    Scene outline_; ///< the materials and documents of every tile
     Written written_;
 };
 

@@ -3,7 +3,7 @@
 namespace facetmill {
 
 const RegisterMessages clean_messages{
-    {"W-CLEAN", "`clean` could not do some repairs, and left the mesh unchanged there.",
+    {"W-CLEAN", "`clean` could not do some repairs, so the mesh is unchanged in those places.",
      "Check the positions in the message, and try other options of `clean`."},
 };
 

@@ -19,23 +19,21 @@ void declare_holes(Declare<CleanHoleOptions>& d) {
     d.choice<HoleFill>(
          "method", &CleanHoleOptions::method,
          {{"minimal", HoleFill::minimal,
-           "triangles between the vertices of the boundary loop, with the smallest dihedral angles and then "
-           "the smallest area"},
-          {"planar", HoleFill::planar, "the boundary loop as one polygon; only where it lies in a plane"},
+           "triangles between the vertices of the hole, with the smallest dihedral angles and then the "
+           "smallest area"},
+          {"planar", HoleFill::planar, "a single polygon; only for planar holes"},
           {"smooth", HoleFill::smooth,
            "a patch with new vertices that continues the density and the curvature around the hole"}},
-         "How a hole is filled.")
+         "The method for filling a hole.")
         .primary();
-    d.option("max_edges", &CleanHoleOptions::max_edges,
-             "Holes with more edges are left open (a count); 0: no limit.")
+    d.option("max_edges", &CleanHoleOptions::max_edges, "Holes with more edges stay open. 0 means no limit.")
         .at_least(0);
-    d.option("max_length", &CleanHoleOptions::max_length, "Holes with a longer boundary loop are left open.")
+    d.option("max_length", &CleanHoleOptions::max_length, "Holes with a longer boundary loop stay open.")
         .above(0);
 }
 
 void declare_components(Declare<CleanComponentOptions>& d) {
-    d.option("min_faces", &CleanComponentOptions::min_faces,
-             "Components with fewer faces are removed (a count).")
+    d.option("min_faces", &CleanComponentOptions::min_faces, "Components with fewer faces are removed.")
         .at_least(0)
         .primary();
     d.option("min_size", &CleanComponentOptions::min_size,
@@ -45,7 +43,7 @@ void declare_components(Declare<CleanComponentOptions>& d) {
              "Components with a smaller share of the part's area are removed.")
         .at_most(1);
     d.option("keep", &CleanComponentOptions::keep,
-             "At most this many components are kept, those of largest area (a count); 0: all.")
+             "At most this many components are kept, the largest by area. 0 keeps all.")
         .at_least(0);
 }
 
@@ -54,13 +52,14 @@ void declare_self_intersections(Declare<CleanOptions>& d) {
     Option& o =
         d.choice<Untangle>(
              "self_intersections", &CleanOptions::self_intersections,
-             {{"off", Untangle::off, "they are left as they are (also: false)"},
+             {{"off", Untangle::off, "keep intersecting faces (also: false)"},
               {"local", Untangle::local,
-               "intersecting faces are replaced region by region, where that resolves the intersection"},
+               "replace intersecting faces region by region, if that resolves the intersection"},
               {"union", Untangle::unite,
-               "closed components that pass through each other or themselves become one solid, exactly"},
-              {"all", Untangle::all, "union, then local for what remains (also: true)"}},
-             "What is done with intersecting faces.")
+               "combine closed components that pass through each other or themselves into a single solid, "
+               "exactly"},
+              {"all", Untangle::all, "union, then local for the remaining intersections (also: true)"}},
+             "How to handle intersecting faces.")
             .also_called(property_named("self_intersections")->also_called)
             .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
@@ -81,54 +80,55 @@ void declare_clean(Declare<CleanOptions>& d) {
          nearness(
              "vertices at exactly the same position",
              "also the ends of boundary edges within `tolerance` of each other, except corners of one face"),
-         "Merges vertices; their attributes stay separate, so seams stay seams.")
+         "Merges vertices. Seams are preserved because the attributes stay separate.")
         .also_called(weld_synonyms);
     d.option("degenerate", &CleanOptions::degenerate,
-             "Removes faces of exactly zero area and repeated corners, and closes the gaps that this opens.");
-    d.option("duplicates", &CleanOptions::duplicates,
-             "Keeps one of several faces with the same vertices, and removes inner walls made of two "
-             "opposite faces.")
+             "Removes repeated corners and faces of exactly zero area, and closes the resulting gaps.");
+    d.option(
+         "duplicates", &CleanOptions::duplicates,
+         "Keeps one of several faces with the same vertices. Removes inner walls made of two opposite faces.")
         .also_called("remove_duplicates remove_doubles dedup");
     d.choice<Nearness>("t_junctions", &CleanOptions::t_junctions,
-                       nearness("where a vertex lies exactly on a boundary edge",
-                                "also where it lies within `tolerance` of it"),
-                       "Closes cracks where one boundary edge runs along several shorter ones, by inserting "
-                       "their vertices into it.");
+                       nearness("if a vertex is exactly on a boundary edge",
+                                "also if a vertex is within `tolerance` of a boundary edge"),
+                       "Closes cracks between a long boundary edge and several shorter ones, by inserting "
+                       "their vertices into the long edge.");
     d.choice<Nearness>("stitch", &CleanOptions::stitch,
                        nearness("boundary edges at exactly the same position",
                                 "boundary edges whose ends are within `tolerance` of each other"),
                        "Joins boundary edges that run in opposite directions.");
     d.option("non_manifold", &CleanOptions::non_manifold,
-             "Separates edges with more than two faces and vertices with several fans.");
+             "Separates edges with more than two faces, and vertices that connect several fans of faces.");
     declare_self_intersections(d);
-    d.group("holes", &CleanOptions::holes, "Fills holes: true, or how; if not given, they stay open.",
-            declare_holes)
+    d.group("holes", &CleanOptions::holes,
+            "Fills holes: true, or a map of options. By default, holes stay open.", declare_holes)
         .also_called("fill_holes close_holes fill fill_hole", "holes: {method: smooth}")
         .option()
         .may_be_true = true;
-    d.group("components", &CleanOptions::components, "Removes small components; if not given, they are kept.",
+    d.group("components", &CleanOptions::components, "Removes small components. By default, all are kept.",
             declare_components)
         .also_called(property_named("components")->also_called)
         .also_called("keep_largest largest largest_component", "components: {keep: 1}");
     d.option("open_components", &CleanOptions::open_components,
-             "Removes components that stay open (sheets, fins on a solid), where closed ones are left.");
+             "Removes components that stay open, such as sheets and fins on a solid, if closed components "
+             "remain.");
     d.option("inner_components", &CleanOptions::inner_components,
-             "Removes closed components that lie inside others.");
+             "Removes closed components inside other components.");
     d.option("isolated", &CleanOptions::isolated,
-             "Removes vertices that no face uses, but for those of a part without faces, a cloud of points.")
+             "Removes vertices that no face uses. The points of point clouds are kept.")
         .also_called("remove_unreferenced remove_isolated unreferenced");
-    d.option("tolerance", &CleanOptions::tolerance, "The distance for steps that are set to near.").above(0);
+    d.option("tolerance", &CleanOptions::tolerance, "The distance for all steps that are set to near.")
+        .above(0);
     d.choice<bool>(
         "precision", &CleanOptions::single,
         {{"full", false, "64-bit floats"},
          {"single", true,
-          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there"}},
-        "The coordinates that vertices may have in their part.");
-    d.option(
-        "apart", &CleanOptions::apart,
-        "With precision: single: moves vertices that were separated at one position apart by a few steps "
-        "of 32-bit floats, so that formats and programs that merge equal positions (STL, slicers) do not "
-        "join them again.");
+          "32-bit floats, as in glTF, STL and most PLY files; the result stays correct in such files"}},
+        "The precision of vertex coordinates.");
+    d.option("apart", &CleanOptions::apart,
+             "With precision: single, moves separated vertices at the same position apart by a few steps of "
+             "32-bit floats. Formats and programs that merge equal positions, such as STL and slicers, then "
+             "keep them separate.");
 }
 
 CleanSettings clean_steps_of(const CleanOptions& o) {
@@ -173,19 +173,18 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
         problems.add(given.mark, "E-MISSING", "clean: near needs a tolerance", "tolerance: 0.01% (or 0.1mm)");
     if (!near && o.tolerance)
         add_refusal(Refusal{"tolerance", "'tolerance' has no effect, because no step is set to near",
-                            "weld: near, stitch: near or t_junctions: near"},
+                            "set weld, stitch or t_junctions to near"},
                     "clean", given, problems);
     const bool may_move = o.single && o.non_manifold && o.weld != Nearness::off;
     if (o.apart && !may_move && given.find("apart"))
         add_refusal(Refusal{"apart",
-                            "'apart' has no effect: vertices are moved apart on coordinates of 32 bits, once "
-                            "those that belong together were merged and the others separated",
-                            "precision: single, with weld and non_manifold on"},
+                            "'apart' has no effect: it needs coordinates of 32 bits, after equal vertices "
+                            "were merged and non-manifold ones separated",
+                            "use precision: single, with weld and non_manifold on"},
                     "clean", given, problems);
     const auto& c = o.components;
     if (c && c->min_faces == 0 && !c->min_size && !c->min_area && c->keep == 0)
-        problems.add(given.mark, "E-MISSING",
-                     "clean: components needs a limit that says which components are small",
+        problems.add(given.mark, "E-MISSING", "clean: components needs a limit for small components",
                      "components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
 }
 

@@ -31,12 +31,12 @@ struct CleanOptions {
 };
 
 void declare_clean(Declare<CleanOptions>& d);
-/// Checks beyond the declaration: conflicting options.
+/// Checks for conflicting options, which the declaration cannot express.
 void verify_clean(const CleanOptions& o, const Value& given, Problems& problems);
 
 /// The steps, without their lengths.
 [[nodiscard]] CleanSettings clean_steps_of(const CleanOptions& o);
-/// Converts lengths from world space to the part's space. A transform with scale uses its mean scale.
+/// Converts lengths from world space to the part's space. If the transform scales, the mean scale is used.
 [[nodiscard]] CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part,
                                            Context& context);
 

@@ -7,63 +7,63 @@ namespace facetmill::clean_stage {
 namespace {
 
 void declare_not_done(DeclareFields<NotDone>& d) {
-    d.field("step", &NotDone::step, "The step that was to do it.");
-    d.field("why", &NotDone::why, "Why it was not done.");
-    d.field("at", &NotDone::at, "Its position in world space.");
+    d.field("step", &NotDone::step, "The step that failed.");
+    d.field("why", &NotDone::why, "The reason.");
+    d.field("at", &NotDone::at, "The position in world space.");
 }
 
 void declare_part(DeclareFields<CleanedPart>& d) {
-    d.field("part", &CleanedPart::part, "Its name.");
+    d.field("part", &CleanedPart::part, "The name of the part.");
     d.field(
-        "changed", [](const CleanedPart& p) { return p.counts.total() > 0; }, "Whether it was changed.");
+        "changed", [](const CleanedPart& p) { return p.counts.total() > 0; },
+        "Whether the part was changed.");
     const auto count = [&](const char* name, std::size_t CleanCounts::*member, const char* help) {
         d.field(
             name, [member](const CleanedPart& p) { return p.counts.*member; }, help);
     };
     using C = CleanCounts;
-    count("rounded_vertices", &C::rounded_vertices, "Vertices that were moved to coordinates of 32 bits.");
-    count("welded_vertices", &C::welded_vertices, "Vertices that were merged with others.");
-    count("degenerate_faces", &C::degenerate_faces, "Faces without area that were removed.");
-    count("repeated_corners", &C::repeated_corners, "Corners that repeated the one before.");
-    count("duplicate_faces", &C::duplicate_faces, "Faces that were there more than once.");
-    count("t_junctions", &C::t_junctions, "Vertices that were inserted into boundary edges.");
-    count("stitched_edges", &C::stitched_edges, "Pairs of boundary edges that were joined.");
-    count("split_vertices", &C::split_vertices, "Vertices of several fans that were separated.");
-    count("split_edges", &C::split_edges, "Edges of more than two faces that were separated.");
-    count("filled_holes", &C::filled_holes, "Holes that were filled.");
-    count("hole_faces", &C::hole_faces, "Faces that fill them.");
-    count("removed_open_components", &C::open_components, "Components that stayed open and were removed.");
-    count("open_component_faces", &C::open_component_faces, "Faces of those.");
-    count("removed_components", &C::components, "Small components that were removed.");
-    count("component_faces", &C::component_faces, "Faces of those.");
-    count("removed_inner_components", &C::inner_components, "Components inside others that were removed.");
-    count("inner_component_faces", &C::inner_component_faces, "Faces of those.");
-    count("isolated_vertices", &C::isolated_vertices, "Vertices without faces that were removed.");
+    count("rounded_vertices", &C::rounded_vertices, "Vertices rounded to 32-bit coordinates.");
+    count("welded_vertices", &C::welded_vertices, "Vertices merged into others.");
+    count("degenerate_faces", &C::degenerate_faces, "Removed faces without area.");
+    count("repeated_corners", &C::repeated_corners, "Removed corners that repeated the previous corner.");
+    count("duplicate_faces", &C::duplicate_faces, "Removed duplicate faces.");
+    count("t_junctions", &C::t_junctions, "Vertices inserted into boundary edges.");
+    count("stitched_edges", &C::stitched_edges, "Joined pairs of boundary edges.");
+    count("split_vertices", &C::split_vertices, "Separated vertices that connected several fans of faces.");
+    count("split_edges", &C::split_edges, "Separated edges with more than two faces.");
+    count("filled_holes", &C::filled_holes, "Filled holes.");
+    count("hole_faces", &C::hole_faces, "Faces that fill the holes.");
+    count("removed_open_components", &C::open_components, "Removed components that stayed open.");
+    count("open_component_faces", &C::open_component_faces, "Faces of the removed open components.");
+    count("removed_components", &C::components, "Removed small components.");
+    count("component_faces", &C::component_faces, "Faces of the removed open components.");
+    count("removed_inner_components", &C::inner_components, "Removed components inside others.");
+    count("inner_component_faces", &C::inner_component_faces, "Faces of the removed open components.");
+    count("isolated_vertices", &C::isolated_vertices, "Removed vertices without faces.");
     count("united_components", &C::united_components,
-          "Closed components that intersected and are part of a union now.");
-    count("refined_faces", &C::refined_faces, "Faces cut where they intersected, once in each repetition.");
+          "Intersecting closed components that became part of a union.");
+    count("refined_faces", &C::refined_faces, "Faces cut at intersections, counted in each repetition.");
     count("covered_faces", &C::covered_faces,
-          "Faces that intersected nothing and lay inside another component.");
+          "Removed faces that intersected nothing and were inside another component.");
     count("touching_edges", &C::touching_edges,
-          "Edges of more than two faces that unions made, where solids touch.");
-    count("intersecting_faces", &C::intersecting_faces, "Faces that intersected and were replaced.");
-    count("moved_apart", &C::moved_apart, "Vertices that were moved away from another at the same position.");
+          "Edges with more than two faces that unions created where solids touch.");
+    count("intersecting_faces", &C::intersecting_faces, "Intersecting faces that were replaced.");
+    count("moved_apart", &C::moved_apart, "Vertices moved away from others at the same position.");
     d.field(
          "farthest_apart",
          [](const CleanedPart& p) {
              const CleanCounts& c = p.counts;
              return c.moved_apart > 0 ? std::optional(c.farthest_apart) : std::nullopt;
          },
-         "How far one of them was moved at most, in the units of its part.")
+         "The largest distance that a vertex was moved apart, in the units of its part.")
         .only_when("vertices were moved apart");
-    d.list("not_done", &CleanedPart::not_done, "The first ten repairs that were not done.", declare_not_done);
+    d.list("not_done", &CleanedPart::not_done, "The first ten repairs that failed.", declare_not_done);
 }
 
 } // namespace
 
 void declare_clean_report(DeclareFields<CleanReport>& d) {
-    d.list("parts", &CleanReport::parts, "Each part that was cleaned.", declare_part)
-        .tallied("nothing to repair");
+    d.list("parts", &CleanReport::parts, "Every cleaned part.", declare_part).tallied("nothing to repair");
 }
 
 std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Transform& to_world) {

@@ -1,5 +1,5 @@
 #pragma once
-// The repairs that clean did or could not do, for reports.
+// The report of clean: completed repairs, and repairs that were not possible.
 
 #include "geometry/clean/clean.hpp"
 #include "options/fields.hpp"
@@ -9,7 +9,7 @@ namespace facetmill::clean_stage {
 struct CleanedPart {
     std::string part;
     CleanCounts counts;
-    std::vector<NotDone> not_done; ///< the first few, in world space
+    std::vector<NotDone> not_done; ///< the first few failed repairs, in world space
 };
 
 struct CleanReport {

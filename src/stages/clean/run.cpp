@@ -16,7 +16,7 @@ void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
     context.warn("W-CLEAN",
                  fmt::format("clean: {} of part '{}' not done, the first in step '{}': {}",
                              counted(all.size(), "repair"), part.name, all[0].step, all[0].why),
-                 "the report lists the first of them with their locations");
+                 "the report lists the first repairs that failed, with their positions");
 }
 
 Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& report) {

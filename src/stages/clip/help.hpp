@@ -6,30 +6,36 @@ namespace facetmill::help::clip {
 inline constexpr const char* about = R"(Clips parts by planes or boxes, with watertight caps.)";
 
 inline constexpr const char* details =
-    R"(Every vertex is classified once, by the exact sign of its distance, so neighbouring faces always
-agree, and a vertex on the plane is neither in front of it nor behind it. Each cut edge gets one new
-vertex, shared by all faces at that edge. Triangles, quads and larger faces, convex or concave, are
-cut directly. A closed part that is capped stays closed in every case: after several planes in a
-row, when it is non-manifold, and when it intersects itself (where it covers a region twice, so does
-its cap). Points that a clip placed on a plane count as lying on it when the same plane is used
-again, in this stage or a later one, until a stage moves them. Of a part without faces, a cloud of
-points, the points on the kept side stay; those on a plane are in front of it.
+    R"(Each vertex is classified once by the exact sign of its distance, so neighbouring faces always
+agree.
+A vertex on the plane is neither in front nor behind.
+Each cut edge gets one new vertex, shared by all faces at that edge.
+Triangles, quads and larger faces, convex or concave, are cut directly.
+A capped closed part always stays closed, even after several planes, when it is non-manifold, or
+when it intersects itself.
+If the part covers a region twice, so does its cap.
+Points that a clip placed on a plane still count as on that plane in later clips, until a stage
+moves them.
+In a point cloud, points on the kept side stay, and points on a plane count as in front.
 
-Planes are given in world space; parts with a node transform are cut where they stand. A face of a
-closed part that lies in the plane is kept only when it faces away from what is kept. A contour that
-is not closed cannot be capped: it is reported (W-CAP-OPEN), and the others are capped. Planes
-that miss every part are reported (W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays
-as an empty part.
+Planes are in world space, so node transforms of parts are respected.
+A face of a closed part that lies in the plane is kept only if it faces away from the kept side.
+An open contour cannot be capped and is reported (W-CAP-OPEN).
+All other contours are capped.
+Planes that miss every part are reported (W-CLIP-ALL, W-CLIP-NOTHING).
+A part without remaining faces stays in the scene as an empty part.
 
-A box keeps what is inside it or, with keep: outside, what is around it; the two results fit
-together exactly, and with caps both are closed. The same holds for several planes with keep: both;
-keep: back alone keeps what is behind each of them.
+A box keeps its inside, or everything around it with keep: outside.
+The two results fit together exactly, and caps close both.
+The same holds for several planes with keep: both.
+keep: back alone keeps the region behind every plane.
 
-New vertices and wedges are interpolated, once per edge and pair of wedges, so seams stay seams; the
-new faces copy the attributes of the face they come from. Caps have a primitive and a material of
-their own, the normal of the plane, planar texture coordinates when the part has TEXCOORD_0, and
-zeros in other face attributes. The face attributes cut_id (the number of the plane; 0 elsewhere)
-and group identify the caps.
+New vertices and wedges are interpolated once per edge and pair of wedges, so seams are preserved.
+New faces copy the attributes of their original face.
+Caps have their own primitive and material and the normal of the plane.
+They get planar texture coordinates if the part has TEXCOORD_0, and zeros in other face attributes.
+The face attributes cut_id and group identify the caps.
+cut_id is the number of the plane, and 0 elsewhere.
 
 Source: P. Bourke, 'Clipping Polygonal Facets with an Arbitrary Plane' (1997).)";
 

@@ -37,14 +37,14 @@ struct ClipOptions {
 };
 
 struct PartsToClip {
-    ClipSettings settings; ///< shared by all parts; planes, memory and the caps' primitive are set per part
+    ClipSettings settings; ///< shared by all parts, except planes, memory and the caps' primitive
     std::string cap_material;
     const char *front = ".front", *back = ".back"; ///< added to the names of both sides
     bool by_box = false;                           ///< for messages
 };
 
 struct ClipReport {
-    std::optional<std::vector<Plane>> planes; ///< in the world
+    std::optional<std::vector<Plane>> planes; ///< in world space
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
     KeptParts kept;
 };
@@ -53,30 +53,31 @@ void declare(Declare<ClipOptions>& d) {
     d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane)
         .also_called(plane_synonyms, plane_is)
         .primary();
-    d.option("planes", &ClipOptions::planes, "Several planes, each as for plane; one after the other.");
-    d.group("box", &ClipOptions::box, "A box to clip by; its front is the inside.", declare_box);
+    d.option("planes", &ClipOptions::planes,
+             "Several planes, each written as for plane. They clip one after the other.");
+    d.group("box", &ClipOptions::box, "A box to clip by. Its inside is the front.", declare_box);
     d.exactly_one({"plane", "planes", "box"});
     d.choice<Keep>(
         "keep", &ClipOptions::keep,
-        {{"inside", Keep::front, "of a box: the same as front"},
-         {"outside", Keep::back, "of a box: the same as back"},
-         {"front", Keep::front, "what lies on the side that the normal points to, or inside the box"},
-         {"back", Keep::back, "what lies on the other side, or around the box"},
+        {{"inside", Keep::front, "for a box: the same as front"},
+         {"outside", Keep::back, "for a box: the same as back"},
+         {"front", Keep::front, "the side that the normal points to, or the inside of the box"},
+         {"back", Keep::back, "the other side, or the outside of the box"},
          {"both", Keep::both,
-          "both, as parts NAME.front and NAME.back (NAME.inside, NAME.outside); with several planes the back "
-          "is everything that is not in front of all of them"}},
-        "Which side is kept.");
+          "both sides, as parts NAME.front and NAME.back (NAME.inside and NAME.outside for a box); with "
+          "several planes, the back is everything that is not in front of all of them"}},
+        "The side to keep.");
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
     declare_triangulate(d, &ClipOptions::triangulate);
-    d.choice<Space>(
-        "space", &ClipOptions::space,
-        {{"world", Space::world, "planes and boxes stand in the scene"},
-         {"local", Space::local, "they stand in each part's own space, before its node's transform"}},
-        "What coordinates, centre and extent refer to.");
-    d.choice<Coplanar>("coplanar", &ClipOptions::coplanar,
-                       {{"keep", Coplanar::keep, "they stay"}, {"drop", Coplanar::drop, "they go"}},
-                       "What is done with faces of open parts that lie in the plane. Those of closed parts "
-                       "are kept when they face away from what is kept.");
+    d.choice<Space>("space", &ClipOptions::space,
+                    {{"world", Space::world, "the scene's coordinates"},
+                     {"local", Space::local, "each part's own coordinates, before its node transform"}},
+                    "The space of planes and boxes, and of centre and extent.");
+    d.choice<Coplanar>(
+        "coplanar", &ClipOptions::coplanar,
+        {{"keep", Coplanar::keep, "keep these faces"}, {"drop", Coplanar::drop, "remove these faces"}},
+        "How to handle faces of open parts that lie in the plane. Faces of closed parts are kept if they "
+        "face away from the kept side.");
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
 
@@ -97,14 +98,14 @@ std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& c
 /// The planes that clip a scene.
 class Cutter {
   public:
-    /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
+    /// Throws a usage error (E-UNIT, E-PLANE), as planes_for does.
     Cutter(const ClipOptions& o, const Scene& scene, Context& context)
         : options_(o), scene_(scene), context_(context) {
         if (o.space == Space::world) world_ = resolved(o, scene, context, nullptr);
     }
     /// The planes in world space; empty with space: local.
     const std::vector<Plane>& world() const { return world_; }
-    /// In the part's own space.
+    /// The planes in the part's own space.
     std::vector<Plane> planes_for(const Part& part) const {
         if (options_.space == Space::local) return resolved(options_, scene_, context_, &part);
         std::vector<Plane> planes = world_;
@@ -120,27 +121,29 @@ class Cutter {
 };
 
 void declare_plane_field(DeclareFields<Plane>& d) {
-    d.field("normal", &Plane::normal, "The direction of its front.");
-    d.field("through", &Plane::through, "A point on it.");
-    d.field("offset", &Plane::offset, "Its distance from that point along the normal.").unit("scene units");
+    d.field("normal", &Plane::normal, "The direction of the front.");
+    d.field("through", &Plane::through, "A point. It is on the plane if offset is 0.");
+    d.field("offset", &Plane::offset, "The signed distance of that point from the plane, along the normal.")
+        .unit("scene units");
 }
 
 void declare_report(DeclareFields<ClipReport>& d) {
-    d.list("planes", &ClipReport::planes, "The planes, in the world.", declare_plane_field)
-        .only_when("they stand in the world (space: world)");
+    d.list("planes", &ClipReport::planes, "The planes in world space.", declare_plane_field)
+        .only_when("the planes are in world space (space: world)");
     d.field("cut_faces", &ClipReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &ClipReport::cap_faces, "Faces of caps.");
     d.field("open_contours", &ClipReport::open_contours,
             "Contours that were not capped because they are open.");
-    d.field("on_plane", &ClipReport::on_plane, "Vertices that lie on a plane.");
-    d.field("snapped", &ClipReport::snapped, "Those that do so within the rounding of float32.");
-    d.field("remembered", &ClipReport::remembered, "Those that an earlier clip placed there.");
+    d.field("on_plane", &ClipReport::on_plane, "Vertices on a plane.");
+    d.field("snapped", &ClipReport::snapped,
+            "Vertices that count as on a plane because they are within the rounding of float32.");
+    d.field("remembered", &ClipReport::remembered, "Vertices that an earlier clip placed on the same plane.");
     declare_kept_parts(d, &ClipReport::kept);
 }
 
-/// Warns when the whole scene or nothing was kept.
+/// Warns if the whole scene was kept, or nothing.
 void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
-    const std::string look = fmt::format("check the position and {} (info prints the bounds)",
+    const std::string look = fmt::format("check the position and {} (facetmill info prints the bounds)",
                                          how.by_box ? "size of the box" : "direction of the plane");
     if (kept.are_all_untouched())
         context.warn("W-CLIP-ALL",
@@ -156,7 +159,7 @@ void warn(const KeptParts& kept, const PartsToClip& how, Context& context) {
 }
 
 /// Clips the selected parts by the cutter's planes. With Keep::both, each part's back follows its front.
-/// Warns of open contours (W-CAP-OPEN), if no plane meets a part (W-CLIP-ALL), and if nothing is left
+/// Warns about open contours (W-CAP-OPEN), planes that meet no part (W-CLIP-ALL), and an empty result
 /// (W-CLIP-NOTHING).
 ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
     ClipSettings settings = how.settings;
@@ -222,15 +225,15 @@ class Reached {
   public:
     Reached(std::vector<Plane> planes, const PartsToClip& how, const Box& box)
         : planes_(std::move(planes)), keep_(how.settings.keep), convex_(how.settings.convex) {
-        // A plane's caps depend on everything that earlier planes kept, so only the first plane can exclude
-        // faces.
+        // The caps of a plane depend on all faces that earlier planes kept, so only the first plane can
+        // exclude faces.
         if (how.settings.cap && planes_.size() > 1) {
             if (keep_ == Keep::back && convex_)
                 planes_.clear();
             else
                 planes_.resize(1);
         }
-        // Points count as on a plane within the rounding of float32: well below a millionth.
+        // Points within float32 rounding of a plane, well below a millionth, count as on the plane.
         constexpr double near = 1e-6;
         double size = box.longest_side();
         for (const Vec3& p : {box.min, box.max})
@@ -262,12 +265,12 @@ class Reached {
     bool convex_, in_plane_ = false;
 };
 
-/// A clip treats faces in the plane differently for closed and open parts. The gathered faces alone may not
-/// show whether the part is closed.
+/// The treatment of faces in the plane depends on whether the part is closed. The gathered faces alone may
+/// not show this.
 void check_faces_in_plane(const CellFlow& flow, const Mesh& some) {
     if (inspect(some).closed == cells::inspect_cells(*flow.partition, {}, flow.means).closed) return;
     throw Error(ErrorKind::usage, "E-CELLS",
-                "clip: a face lies in the plane, and what becomes of it needs the whole mesh in memory",
+                "clip: a face lies in the plane, so the cut needs the whole mesh in memory",
                 "move the plane a little, or give more memory");
 }
 
@@ -287,7 +290,7 @@ struct ClipStage : StageOf<run> {
     /// Loads only the faces that the planes reach, and clips them.
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
-        if (o.keep == Keep::both) return "keep: both makes nothing small";
+        if (o.keep == Keep::both) return "keep: both does not reduce the mesh";
         if (o.space == Space::local) return "space: local needs the part in memory";
         return {};
     }

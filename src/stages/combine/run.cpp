@@ -72,8 +72,8 @@ std::vector<std::string> names_of(const Scene& scene) {
     return names;
 }
 
-/// By part: 0: not involved, 1: in the first operand, 2: in the second. Usage error (E-PART) if a pattern of
-/// `with` matches no part, or no part remains to be combined.
+/// [parts] 0: not involved, 1: in the first operand, 2: in the second operand. Throws a usage error (E-PART)
+/// if a pattern of `with` matches no part, or if no part remains to be combined.
 std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const Context& context) {
     for (const auto& pattern : o.with) {
         const PartFilter alone{{pattern}};
@@ -126,7 +126,7 @@ Mesh in_space_of(const Part& space, const Part& part) {
     return mesh;
 }
 
-/// Throws E-COMBINE, or limit (E-MEMORY).
+/// Throws E-COMBINE, or a limit error (E-MEMORY).
 [[noreturn]] void fail(const CombineFailure& failure, const std::vector<const Part*>& parts,
                        bool short_of_memory) {
     const Vec3 at = parts[0]->transform.point(failure.at);
@@ -184,7 +184,8 @@ void tag(Mesh& mesh, const std::vector<Index>& mesh_of_face, bool unites, Index 
     number_faces(mesh, cut_id_attribute, std::move(numbers));
 }
 
-/// [with] 1 if the bounding box contains a vertex of the others: the part may then remove a whole component.
+/// [with] 1 if the part's bounding box contains a vertex of the others. The part may then remove a whole
+/// component.
 std::vector<std::uint8_t> reached(const std::vector<const Part*>& with, const std::vector<Part*>& others) {
     std::vector<std::uint8_t> all(with.size());
     for (std::size_t i = 0; i < with.size(); ++i) {
@@ -201,8 +202,8 @@ std::vector<std::uint8_t> reached(const std::vector<const Part*>& with, const st
     return all;
 }
 
-/// Warns of parts of `with` without a face in the result, for example a drill at the wrong height or inside
-/// another. bounds: the parts that contribute, and parts that may.
+/// Warns about parts of `with` without a face in the result, for example a drill at the wrong height or
+/// inside another. bounds: flags of parts that contribute or may contribute.
 void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::uint8_t>& bounds,
                   Context& context) {
     std::string names;
@@ -219,7 +220,7 @@ void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::u
 }
 
 /// Combines a part with others: meshes before `second` belong to the first operand. The first part gets the
-/// result. bounds: set for each of the others with a face in the result.
+/// result. bounds: set for each other part with a face in the result.
 CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, Operation operation,
                            std::vector<std::uint8_t>& bounds, Context& context) {
     std::vector<const Part*> all{&part};

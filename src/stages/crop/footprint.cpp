@@ -82,11 +82,39 @@ void verify_footprint(const FootprintOption& option, const Value& value, std::st
     }
 }
 
-Footprint resolve_footprint(const FootprintOption& option, Context& context) {
+namespace {
+
+/// The factor from the unit of a file to that of the scene. Warns (W-UNITS) if only one of them is known.
+double unit_factor(const io::FootprintFile& file, const std::string& name, Unit scene, Context& context) {
+    if (file.metres > 0 && scene != Unit::unknown) return file.metres / metres(scene);
+    if (file.metres > 0)
+        context.warn("W-UNITS",
+                     fmt::format("{}: '{}' states its unit, but the scene has none: its numbers are taken as "
+                                 "scene units",
+                                 context.name(), name),
+                     "give the unit of the mesh: load: {unit: mm}");
+    else if (file.can_state_unit && scene != Unit::unknown)
+        context.warn("W-UNITS",
+                     fmt::format("{}: '{}' states no unit: its numbers are taken as {}", context.name(), name,
+                                 to_string(scene)),
+                     "set the unit of the drawing ($INSUNITS) in the CAD program");
+    return 1;
+}
+
+} // namespace
+
+Footprint resolve_footprint(const FootprintOption& option, Unit unit, Context& context) {
     if (option.path.empty()) return Footprint(option.rings);
     const io::Input input = io::Input::open(context.places().input(option.path));
     record_input(context, input.name(), input.stored().size(), sha256(input.stored()));
-    return Footprint(io::read_footprint(input));
+    io::FootprintFile file = io::read_footprint(input);
+    for (const Diagnostic& w : file.warnings)
+        context.warn(w.id, fmt::format("{}: '{}': {}", context.name(), option.path, w.message), w.hint);
+    const double factor = unit_factor(file, option.path, unit, context);
+    if (factor != 1)
+        for (auto& ring : file.rings)
+            for (Vec2& p : ring) p = p * factor;
+    return Footprint(std::move(file.rings));
 }
 
 } // namespace facetmill

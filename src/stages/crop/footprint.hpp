@@ -9,7 +9,7 @@
 namespace facetmill {
 
 struct FootprintOption {
-    std::string path; ///< of a file; empty: use the rings
+    std::string path; ///< the file; empty: use the rings
     io::FootprintRings rings;
 };
 
@@ -23,11 +23,13 @@ struct OptionType<FootprintOption> {
     static std::optional<double> magnitude(const FootprintOption&) { return {}; }
 };
 
-/// Checks an inline footprint before the run: adds the errors of Footprint at the mark.
+/// Checks an inline footprint before the run, and adds the errors of Footprint at the mark.
 void verify_footprint(const FootprintOption& option, const Value& value, std::string_view stage,
                       Problems& problems);
 
-/// The footprint; a file is listed in the record as an input. Throws as io::read_footprint and Footprint.
-[[nodiscard]] Footprint resolve_footprint(const FootprintOption& option, Context& context);
+/// The footprint, in a scene of this unit. A file is listed in the record as an input. Warns as
+/// io::read_footprint, and (W-UNITS) if only the file or only the scene has a unit. Throws as
+/// io::read_footprint and Footprint.
+[[nodiscard]] Footprint resolve_footprint(const FootprintOption& option, Unit unit, Context& context);
 
 } // namespace facetmill

@@ -19,10 +19,9 @@ namespace facetmill::crop_stage {
 namespace {
 
 struct PartsToCrop {
-    CropSettings
-        settings; ///< shared by all parts; transform, memory and the caps' primitive are set per part
+    CropSettings settings; ///< shared by all parts, except transform, memory and the caps' primitive
     bool triangulate = false;
-    bool both = false; ///< keep the inside, and the outside as a separate part after it
+    bool both = false; ///< keeps the inside, and the outside as a separate part after it
     std::string cap_material;
 };
 
@@ -52,37 +51,38 @@ struct CropOptions {
 
 void declare(Declare<CropOptions>& d) {
     d.option("footprint", &CropOptions::footprint,
-             "The polygon, in scene units: a GeoJSON, WKT or DXF file; WKT text; a ring of points; or a list "
+             "The polygon, in scene units or in the unit that a DXF states: a GeoJSON, WKT or DXF file; WKT "
+             "text; a ring of points; or a list "
              "of rings, where a ring inside another is a hole.")
         .required()
         .primary();
     d.choice<Axis>("axis", &CropOptions::axis,
-                   {{"up", Axis::up, "the scene's up axis; z when it is not known"},
+                   {{"up", Axis::up, "the scene's up axis, or z if it is unknown"},
                     {"x", Axis::x, "the footprint is in y and z"},
                     {"y", Axis::y, "the footprint is in x and z"},
                     {"z", Axis::z, "the footprint is in x and y"}},
                    "The axis to look along.");
     d.choice<CropBy>(
         "by", &CropOptions::by,
-        {{"cut", CropBy::cut, "faces are cut at the outline"},
-         {"whole", CropBy::whole, "faces that lie entirely on the kept side are kept whole"},
+        {{"cut", CropBy::cut, "cut faces at the outline"},
+         {"whole", CropBy::whole, "keep whole faces that are entirely on the kept side"},
          {"centre", CropBy::centre,
-          "faces whose centroid (the mean of their corners) lies on the kept side are kept whole"},
-         {"overlapping", CropBy::overlapping,
-          "faces of which any part lies on the kept side are kept whole"}},
-        "What is done with faces at the outline.");
+          "keep whole faces whose centroid (the mean of their corners) is on the kept side"},
+         {"overlapping", CropBy::overlapping, "keep whole faces that are at least partly on the kept side"}},
+        "How to handle faces at the outline.");
     d.choice<CropKeep>("keep", &CropOptions::keep,
-                       {{"inside", CropKeep::inside, "what lies in the polygon and not in its holes"},
-                        {"outside", CropKeep::outside, "the rest"},
-                        {"both", CropKeep::both, "both, as parts NAME.inside and NAME.outside"}},
-                       "Which side is kept.");
+                       {{"inside", CropKeep::inside, "the area inside the polygon, without its holes"},
+                        {"outside", CropKeep::outside, "everything else"},
+                        {"both", CropKeep::both, "both sides, as parts NAME.inside and NAME.outside"}},
+                       "The side to keep.");
     d.choice<InsideBy>(
         "inside_by", &CropOptions::inside_by,
-        {{"crossings", InsideBy::crossings, "the number of edges that a ray crosses; exact and fast"},
-         {"angles", InsideBy::angles, "the sum of the angles that the edges subtend"},
-         {"half_planes", InsideBy::half_planes, "being on the same side of all edges; for one convex ring"},
-         {"angles_3d", InsideBy::angles_3d, "the sum of unsigned angles; for one convex ring"}},
-        "How points are tested; all methods give the same result.");
+        {{"crossings", InsideBy::crossings, "count the edges that a ray crosses; exact and fast"},
+         {"angles", InsideBy::angles, "add up the angles that the edges subtend"},
+         {"half_planes", InsideBy::half_planes,
+          "check that the point is on the same side of all edges; for one convex ring"},
+         {"angles_3d", InsideBy::angles_3d, "add up unsigned angles; for one convex ring"}},
+        "The test for points inside the polygon. All methods give the same result.");
     declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
     declare_triangulate(d, &CropOptions::triangulate);
     declare_snap(d, &CropOptions::snap, "the outline");
@@ -95,16 +95,18 @@ std::size_t axis_of(const CropOptions& o, const Scene& scene) {
 
 void declare_report(DeclareFields<CropReport>& d) {
     d.field("rings", &CropReport::rings, "Rings of the footprint.");
-    d.field("footprint_area", &CropReport::footprint_area, "The inside.").unit("square scene units");
-    d.field("axis", &CropReport::axis, "The axis of view: x, y or z.");
+    d.field("footprint_area", &CropReport::footprint_area, "The area inside the footprint.")
+        .unit("square scene units");
+    d.field("axis", &CropReport::axis, "The viewing axis: x, y or z.");
     d.field("cut_faces", &CropReport::cut_faces, "Faces that were cut.");
-    d.field("cap_faces", &CropReport::cap_faces, "Faces of walls on the outline.");
+    d.field("cap_faces", &CropReport::cap_faces, "Faces of the walls on the outline.");
     d.field("open_contours", &CropReport::open_contours,
             "Contours that were not capped because they are open.");
     d.field("snapped", &CropReport::snapped,
-            "Vertices that count as on the outline within the rounding of float32.");
+            "Vertices that count as on the outline because they are within the rounding of float32.");
     d.field("faces_before", &CropReport::faces_before, "Faces of the input.");
-    d.field("faces_after", &CropReport::faces_after, "Faces that remain, on both sides with keep: both.");
+    d.field("faces_after", &CropReport::faces_after,
+            "Faces of the result. With keep: both, the sum of both sides.");
     declare_kept_parts(d, &CropReport::kept);
 }
 
@@ -197,8 +199,8 @@ class CropRun {
         return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of_footprint().text(),
                            report_.kept.all() == 1 ? "part" : "scene", emptied_.text());
     }
-    /// Whether the footprint seems to be in degrees and the parts in metres. Small numbers may instead count
-    /// from another origin: five degrees are 550 km, and the area within a degree of 0, 0 is sea.
+    /// Whether the footprint seems to be in degrees and the parts in metres. Coordinates near 0, 0 may be
+    /// metres from a local origin. Within a degree of 0, 0 there is only sea, and five degrees are 550 km.
     bool is_in_degrees() const {
         constexpr double most_degrees = 5, of_sea = 1;
         const Bounds b = bounds_of_footprint();
@@ -224,16 +226,15 @@ class CropRun {
     }
 
     void warn() {
-        constexpr const char* hint = "check the position of the footprint and the axis, and that both count "
-                                     "from one origin; info prints "
-                                     "the bounds";
+        constexpr const char* hint = "check the position and the axis of the footprint, and that it has the "
+                                     "same origin as the mesh; facetmill info prints the bounds";
         const KeptParts& kept = report_.kept;
         if (kept.are_all_emptied())
             context_.warn(
                 "W-CROP-NOTHING",
                 fmt::format("crop: nothing of {} was kept: {}", kept.all_of_them(), where_they_are()),
-                is_in_degrees() ? "is the footprint in degrees? It is to have the coordinates of the mesh: "
-                                  "ogr2ogr -t_srs converts it"
+                is_in_degrees() ? "the footprint seems to be in degrees: convert it to the coordinates of "
+                                  "the mesh with ogr2ogr -t_srs"
                                 : hint);
         else if (kept.are_all_untouched())
             context_.warn(
@@ -248,12 +249,12 @@ class CropRun {
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
-    Bounds emptied_; ///< the box of parts of which nothing was kept
+    Bounds emptied_; ///< the bounding box of the parts that were removed completely
     CropReport report_;
 };
 
-/// Crops the selected parts. Warns of open contours (W-CAP-OPEN), if the outline meets no part (W-CROP-ALL),
-/// and if nothing is left (W-CROP-NOTHING).
+/// Crops the selected parts. Warns about open contours (W-CAP-OPEN), an outline that meets no part
+/// (W-CROP-ALL), and an empty result (W-CROP-NOTHING).
 CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
     return CropRun(scene, footprint, how, context).run(how.cap_material);
 }
@@ -270,7 +271,7 @@ Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& repor
     how.triangulate = o.triangulate;
     how.both = o.keep == CropKeep::both;
     how.cap_material = o.cap_material;
-    report = crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
+    report = crop_parts(scene, resolve_footprint(o.footprint, scene.unit, context), how, context);
     return scene;
 }
 
@@ -283,11 +284,12 @@ struct CropStage : StageOf<run> {
         const Value* footprint = given.is_map() ? given.find("footprint") : &given;
         if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
         if (o.cap && o.by != CropBy::cut)
-            add_refusal(Refusal{"cap", "'cap' needs a cut at the outline, and with whole faces there is none",
-                                "leave out cap, or use by: cut"},
+            add_refusal(Refusal{"cap",
+                                "'cap' needs a cut at the outline, so it cannot be used with whole faces",
+                                "remove cap, or use by: cut"},
                         "crop", given, problems);
     }
-    /// Faces that are kept whole do not change, so they need no filling.
+    /// Faces kept whole do not change, so they need no triangulation.
     CrossingFacePolicy crossing_faces() const override {
         return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }

@@ -25,10 +25,10 @@ struct CrumpleOptions {
 };
 
 void declare_crumple(Declare<CrumpleOptions>& d);
-/// Checks beyond the declaration: options that need a frequency.
+/// Checks options that need a frequency, which the declaration cannot express.
 void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems);
 
-/// The settings shared by all parts; amplitude, transform and mask are set per part. amplitude: the largest.
+/// The settings shared by all parts, except amplitude, transform and mask. amplitude: the largest amplitude.
 [[nodiscard]] CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene, double amplitude);
 
 } // namespace facetmill::crumple_stage

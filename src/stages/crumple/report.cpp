@@ -73,7 +73,7 @@ void declare_crumple_report(DeclareFields<CrumpleReport>& d) {
 
 void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts, std::int64_t grid) {
     const CrumpledPart& work = parts[r.first_sheet];
-    const auto pieces = static_cast<Index>(grid * grid); // of each face, consecutive
+    const auto pieces = static_cast<Index>(grid * grid); // each face became this many consecutive faces
     const Index a = r.first.first / pieces, b = r.first.second / pieces;
     const Vec3 p = place_of(work, r.first.first);
     throw Error(

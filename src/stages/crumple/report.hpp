@@ -28,13 +28,13 @@ struct CrumpleReport {
 };
 void declare_crumple_report(DeclareFields<CrumpleReport>& d);
 
-/// Throws stage (E-INTERSECTS) with the first pair of faces that would meet. It names the input faces, each
-/// of which became grid * grid faces.
+/// Throws a stage error (E-INTERSECTS) with the first pair of faces that would meet. It names the input
+/// faces, each of which became grid * grid faces.
 [[noreturn]] void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts,
                                        std::int64_t grid);
 
 /// Warns of an amplitude larger than the edges: the surface stays connected, but faces intersect. mean_edge:
-/// of the part before the displacement, in world space.
+/// the part's mean edge length before the displacement, in world space.
 void warn_of_tangles(const std::string& part, double mean_edge, double amplitude, Context& context);
 /// Warns if avoiding intersections moves a vertex by more than 1 % of the amplitude. It rounds positions to
 /// float32, which is coarse far from the origin.

@@ -15,7 +15,8 @@ namespace {
 struct ShapeOptions {
     Shape shape;
     const char* name;
-    std::vector<std::string> takes; ///< in addition to the options of all shapes
+    std::vector<std::string>
+        takes; ///< options that this shape takes, in addition to the options of all shapes
 };
 
 const std::vector<ShapeOptions>& shape_table() {

@@ -18,11 +18,12 @@ struct GenerateOptions {
     std::string name;
 };
 
-/// The name in pipelines.
+/// The shape's name in pipelines.
 [[nodiscard]] const char* to_string(Shape shape);
 
 void declare_generate(Declare<GenerateOptions>& d);
-/// Checks beyond the declaration: options of other shapes, and counts whose limits depend on the shape.
+/// Checks options of other shapes, and counts whose limits depend on the shape. The declaration cannot
+/// express these.
 void verify_generate(const GenerateOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::generate_stage

@@ -15,7 +15,8 @@ namespace {
 double thickness_of(const Length& given, const Scene& scene, const std::vector<Lines>& all,
                     Context& context) {
     Length length = given;
-    if (given.kind == Length::Kind::percent) { // of the file: the scene does not have it yet
+    if (given.kind ==
+        Length::Kind::percent) { // refers to the file, because the scene does not contain it yet
         Box box = scene.bounds();
         for (const Lines& lines : all)
             for (const Vec3& p : lines.points) box.add(p);

@@ -155,7 +155,7 @@ struct LoadStage : StageOf<run> {
     io::FileHeader header(const std::filesystem::path& path, const Folders& places) const override {
         return io::file_header(io::Input::open(path), read_settings(o, places), io::codec_named(o.format));
     }
-    /// The same as run, for files that do not fit into memory.
+    /// Loads files that do not fit into memory as cells.
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
         if (o.lines) return "lines need the whole file";

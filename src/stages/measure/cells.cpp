@@ -8,9 +8,9 @@
 namespace facetmill::measure_stage {
 
 std::optional<std::string> why_not_on_cells(const MeasureOptions& o) {
-    if (!o.attributes.empty()) return "attributes: cells do not get any";
+    if (!o.attributes.empty()) return "attributes need the whole mesh in memory";
     if (std::any_of(o.path.begin(), o.path.end(), lists_faces))
-        return "path: the table has the faces in the order of the file, which cells do not keep";
+        return "path needs the whole mesh in memory, because cells do not keep the order of faces";
     return {};
 }
 

@@ -54,7 +54,7 @@ void add_principal(const Row& row, Cells& cells) {
 
 const std::vector<Columns>& columns() {
     static const std::vector<Columns> all{
-        {{"part"}, "its name", [](const Row& r, Cells& c) { c.push_back(io::csv_text(r.part)); }},
+        {{"part"}, "the name of the part", [](const Row& r, Cells& c) { c.push_back(io::csv_text(r.part)); }},
         {{"face"}, "from 0", [](const Row& r, Cells& c) { c.push_back(std::to_string(r.face)); }},
         {{"corners"}, "how many", [](const Row& r, Cells& c) { c.push_back(std::to_string(r.corners)); }},
         {{"area"}, "", [](const Row& r, Cells& c) { c.push_back(io::csv_number(r.polygon.area)); }},
@@ -67,17 +67,16 @@ const std::vector<Columns>& columns() {
          "triangle, quad, convex, concave, complex, self_intersecting or degenerate",
          [](const Row& r, Cells& c) { c.push_back(polygon::to_string(r.polygon.kind)); }},
         {{"planar"},
-         "true unless it is farther from its plane than the rounding of float32 explains",
+         "false if a corner is farther from the plane than the rounding of float32 explains",
          [](const Row& r, Cells& c) { c.push_back(r.polygon.planar ? "true" : "false"); }},
         {{"signed_area"},
-         "positive when anticlockwise, or as much either way, seen from the positive side of the axis "
-         "nearest to the normal",
+         "positive if anticlockwise, seen from the positive side of the axis nearest to the normal",
          [](const Row& r, Cells& c) { c.push_back(io::csv_number(r.polygon.signed_area)); }},
         {{"ix_centroid", "iy_centroid", "ixy_centroid"},
          "the second moments of area about the centroid",
          add_moments<&polygon::Moments::about_centroid>},
         {{"ix_origin", "iy_origin", "ixy_origin"},
-         "about the point of the plane that is nearest to the origin",
+         "about the point of the plane nearest to the origin",
          add_moments<&polygon::Moments::about_origin>},
         {{"largest", "smallest", "major_x", "major_y", "major_z"},
          "the principal second moments, and the axis of the largest",

@@ -14,7 +14,7 @@ namespace facetmill::measure_stage {
 
 namespace {
 
-/// "of faces: The smallest angle of a face; none where ..."
+/// Example: "of faces: The smallest angle of a face; none where ..."
 std::string told(const Quantity& q) {
     std::string text = fmt::format("of {}: {}", q.domain == Domain::face ? "faces" : "vertices", q.help);
     if (!q.missing.empty()) text += fmt::format(" None {}.", q.missing);
@@ -30,15 +30,15 @@ bool compares(const MeasureOptions& o) {
 
 void declare_measure(Declare<MeasureOptions>& d) {
     d.option("density", &MeasureOptions::density,
-             "The mass per cubic scene unit, which scales mass and inertia.")
+             "The mass per cubic scene unit. It scales mass and inertia.")
         .above(0);
     d.option("feature_angle", &MeasureOptions::feature_angle,
-             "Edges whose dihedral angle is larger than this count as feature edges (an angle between the "
-             "normals of the two faces).")
+             "Edges whose two face normals differ by more than this angle count as feature edges.")
         .between(0, 180);
     Option& attributes =
-        d.option("attributes", &MeasureOptions::attributes,
-                 "Keeps these as attributes of faces or vertices, in world space and scene units.")
+        d.option(
+             "attributes", &MeasureOptions::attributes,
+             "Stores these quantities as attributes of faces or vertices, in world space and scene units.")
             .also_called("areas", "attributes: area")
             .also_called("curvature curvatures", "attributes: [mean_curvature, gaussian_curvature]")
             .option();
@@ -47,11 +47,11 @@ void declare_measure(Declare<MeasureOptions>& d) {
              "The mesh file that deviation is measured from. Default: the scene as loaded.")
         .also_called(with_synonyms);
     d.option("missing", &MeasureOptions::missing,
-             "What attributes are set to where there is no number. Default: nan, which render shows as \"no "
-             "value\" and PLY keeps; files of other formats get 0 (W-NAN).");
+             "The value of an attribute where no number exists. Default: nan, which render shows as \"no "
+             "value\" and PLY stores. Other formats store 0 instead of nan (W-NAN).");
     d.option("path", &MeasureOptions::path,
-             "The file to write, or a list of files; the suffix decides the format. .json gets all results, "
-             ".csv one line per face; - is JSON on standard output. The columns of the table: " +
+             "The file to write, or a list of files. The suffix selects the format: .json for all results, "
+             ".csv for a table of faces. - writes JSON to standard output. Columns of the table: " +
                  face_table_help() + ".")
         .also_called(path_synonyms);
 }
@@ -60,11 +60,11 @@ void verify_measure(const MeasureOptions& o, const Value& given, Problems& probl
     for (const auto& path : o.path)
         if (path.text != "-" && !lists_faces(path) && !path.text.ends_with(".json"))
             problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
-                         "a name that ends in .json or .csv");
+                         "use a name that ends in .json or .csv");
     if (o.with && !compares(o))
-        add_refusal(Refusal{"with", "'with' goes with the attribute deviation"}, "measure", given, problems);
+        add_refusal(Refusal{"with", "'with' needs the attribute deviation"}, "measure", given, problems);
     if (given.find("missing") && o.attributes.empty())
-        add_refusal(Refusal{"missing", "'missing' goes with attributes"}, "measure", given, problems);
+        add_refusal(Refusal{"missing", "'missing' needs attributes"}, "measure", given, problems);
 }
 
 StageFiles files_of_measure(const MeasureOptions& o) {
@@ -89,7 +89,7 @@ bool OptionType<QuantityName>::parse(const Value& value, QuantityName& out, Prob
     if (out.quantity) return true;
     const Quantity* called = value.is_scalar() ? quantity_called(value.text) : nullptr;
     problems.add(value.mark, "E-CHOICE",
-                 fmt::format("'attributes' are some of {}, found {}", fmt::join(quantity_names(), ", "),
+                 fmt::format("'attributes' accepts {}, found {}", fmt::join(quantity_names(), ", "),
                              value.described()),
                  called ? fmt::format("'{}' is called '{}' here", value.text, called->name)
                         : did_you_mean(value.text, quantity_words()));

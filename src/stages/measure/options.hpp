@@ -21,7 +21,7 @@ struct MeasureOptions {
 };
 
 void declare_measure(Declare<MeasureOptions>& d);
-/// Checks beyond the declaration: the formats of the files.
+/// Checks the formats of the files, which the declaration cannot express.
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems);
 [[nodiscard]] StageFiles files_of_measure(const MeasureOptions& o);
 

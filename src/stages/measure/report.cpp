@@ -15,8 +15,7 @@ namespace facetmill::measure_stage {
 namespace {
 
 constexpr double degrees = 180 / pi;
-constexpr const char* unknown =
-    "it is not known, because there is nothing or it is beyond the range of numbers";
+constexpr const char* unknown = "there is nothing to measure, or the result is out of the range of numbers";
 
 std::optional<Vec3> known_point(bool known, const Vec3& p) {
     return known && is_finite(p) ? std::optional(p) : std::nullopt;
@@ -49,36 +48,37 @@ std::array<Vec3, 3> rows_of(const Symmetric& m, double factor) {
 
 void declare_principal(DeclareFields<PrincipalInertia>& d) {
     using P = PrincipalInertia;
-    d.field("moments", &P::moments, "The principal moments of inertia, ascending.");
-    d.field("axes", &P::axes, "Their directions, a right-handed frame.");
-    d.field("radii_of_gyration", &P::radii, "About them; null below the range of numbers.")
+    d.field("moments", &P::moments, "The principal moments of inertia, in ascending order.");
+    d.field("axes", &P::axes, "The directions of the principal axes, a right-handed frame.");
+    d.field("radii_of_gyration", &P::radii,
+            "The radii of gyration about the principal axes. Null below the range of numbers.")
         .unit("scene units");
 }
 
-constexpr const char* out_of_range = "they are beyond the range of numbers";
+constexpr const char* out_of_range = "the moments are out of the range of numbers";
 
 void declare_shell(DeclareFields<ShellMass>& d) {
-    d.field("area", &ShellMass::area, "Of the surface.").unit("square scene units");
+    d.field("area", &ShellMass::area, "The area of the surface.").unit("square scene units");
     const auto centroid = [](const ShellMass& s) { return known_point(s.area > 0, s.centroid); };
-    d.field("centroid", centroid, "Weighted by area.").null_when(unknown);
+    d.field("centroid", centroid, "The centroid of the surface, weighted by area.").null_when(unknown);
     const auto inertia = [](const ShellMass& s) { return rows_of(inertia_of(s.spread), 1); };
     d.field("inertia", inertia,
-            "The inertia tensor about the centroid, three rows, of a mass of one per square scene unit.");
+            "The inertia tensor about the centroid, as three rows, with a mass of 1 per square scene unit.");
     const auto of_shell = [](const ShellMass& s) { return principal(inertia_of(s.spread), s.area, 1); };
     d.object("principal", of_shell,
-             "Principal moments and axes of the surface. Of a planar polygon: its smallest and its largest "
-             "second moment of area, and their sum, the polar one, about the normal.",
+             "The principal moments and axes of the surface. For a planar polygon: its smallest and largest "
+             "second moments of area, and their sum, the polar moment about the normal.",
              declare_principal)
         .null_when(out_of_range);
 }
 
 void declare_solid(DeclareFields<MeasuredSolid>& d) {
-    d.field("volume", &MeasuredSolid::volume, "Negative when the surface is inside out.")
+    d.field("volume", &MeasuredSolid::volume, "The volume. Negative if the surface is inside out.")
         .unit("cubic scene units");
     d.field("mass", &MeasuredSolid::mass, "The volume times the density.");
-    d.field("centroid", &MeasuredSolid::centroid, "Of the inside.").null_when(unknown);
-    d.field("inertia", &MeasuredSolid::inertia, "The inertia tensor about the centroid, three rows.");
-    d.object("principal", &MeasuredSolid::principal, "Principal moments and axes.", declare_principal)
+    d.field("centroid", &MeasuredSolid::centroid, "The centroid of the volume.").null_when(unknown);
+    d.field("inertia", &MeasuredSolid::inertia, "The inertia tensor about the centroid, as three rows.");
+    d.object("principal", &MeasuredSolid::principal, "The principal moments and axes.", declare_principal)
         .null_when(out_of_range);
 }
 
@@ -97,19 +97,22 @@ void declare_faces(DeclareFields<FaceResult>& d) {
     names.reserve(polygon::kinds);
     for (int k = 0; k < polygon::kinds; ++k)
         names.push_back(polygon::to_string(static_cast<polygon::Kind>(k)));
-    d.object("area", &FaceResult::area, "Their areas.", statistics_fields("square scene units"));
-    d.object("angle", &FaceResult::angle, "Their inner angles.", statistics_fields("degrees", degrees));
+    d.object("area", &FaceResult::area, "The areas of the faces.", statistics_fields("square scene units"));
+    d.object("angle", &FaceResult::angle, "The inner angles of the faces.",
+             statistics_fields("degrees", degrees));
     d.object("aspect_ratio", &FaceResult::aspect_ratio,
-             "Of triangles: the longest edge over the inradius, normalised to 1 for an equilateral triangle.",
+             "The aspect ratios of the triangles: the longest edge over the inradius, scaled to 1 for an "
+             "equilateral triangle.",
              statistics_fields());
-    d.field("signed_area", &FaceResult::signed_area,
-            "The sums of the signed areas of their projections along x, y and z: positive where they run "
-            "anticlockwise, seen from the positive side of that axis. Zero for a closed surface.")
+    d.field(
+         "signed_area", &FaceResult::signed_area,
+         "The signed areas of the faces projected along x, y and z, added up. A face that runs anticlockwise "
+         "counts as positive, seen from the positive side of the axis. Zero for a closed surface.")
         .unit("square scene units");
-    d.counts("kinds", kinds_of, names, "The number of each kind that occurs.");
+    d.counts("kinds", kinds_of, names, "The number of faces of each kind that occurs.");
     d.field(
         "non_planar", [](const FaceResult& f) { return f.kinds.non_planar; },
-        "Faces that are farther from their plane than the rounding of float32 explains.");
+        "Faces with a corner farther from their plane than the rounding of float32 explains.");
     d.field(
          "farthest_from_plane", [](const FaceResult& f) { return f.kinds.deviation; },
          "The largest distance of a corner from the plane of its face.")
@@ -117,60 +120,63 @@ void declare_faces(DeclareFields<FaceResult>& d) {
 }
 
 void declare_edges(DeclareFields<EdgeResult>& d) {
-    d.object("length", &EdgeResult::length, "Their lengths.", statistics_fields("scene units"));
+    d.object("length", &EdgeResult::length, "The lengths of the edges.", statistics_fields("scene units"));
     d.object("turn", &EdgeResult::turn,
-             "The angles between the normals of their two faces, negative where concave.",
+             "The angles between the normals of the two faces at each edge, negative at concave edges.",
              statistics_fields("degrees", degrees));
     d.field("convex", &EdgeResult::convex, "Convex edges.");
     d.field("concave", &EdgeResult::concave, "Concave edges.");
     d.field("flat", &EdgeResult::flat, "Edges between coplanar faces.");
     d.field("feature", &EdgeResult::feature,
-            "Edges whose dihedral angle is larger than feature_angle, convex or concave.");
+            "Convex or concave edges whose angle is larger than feature_angle.");
     d.field("boundary", &EdgeResult::boundary, "Edges with one face.");
     d.field("non_manifold", &EdgeResult::non_manifold, "Edges with three or more faces.");
 }
 
 void declare_curvature(DeclareFields<CurvatureResult>& d) {
-    d.object("gaussian", &CurvatureResult::of_gaussian, "Of vertices that are not on a boundary.",
+    d.object("gaussian", &CurvatureResult::of_gaussian,
+             "The Gaussian curvature of vertices that are not on a boundary.",
              statistics_fields("per square scene unit"));
-    d.object("mean", &CurvatureResult::of_mean, "Positive where the surface bulges outward.",
+    d.object("mean", &CurvatureResult::of_mean,
+             "The mean curvature of vertices that are not on a boundary. Positive where the surface bulges "
+             "outward.",
              statistics_fields("per scene unit"));
     d.field(
         "total_in_turns", [](const CurvatureResult& c) { return c.total / (2 * pi); },
-        "The sum of the angle defects of all vertices, in full turns: the Euler number of a manifold.");
+        "The sum of the angle defects of all vertices, in full turns. It is the Euler number of a manifold.");
 }
 
 void declare_attribute(DeclareFields<KeptAttribute>& d) {
-    d.field("name", &KeptAttribute::name, "Its name.");
-    d.field("of", &KeptAttribute::elements, "What has one: faces or vertices.");
-    d.field("unit", &KeptAttribute::unit, "Of its values; empty: they have none.");
+    d.field("name", &KeptAttribute::name, "The name of the part.");
+    d.field("of", &KeptAttribute::elements, "The elements that have the attribute: faces or vertices.");
+    d.field("unit", &KeptAttribute::unit, "The unit of the values. Empty if they have no unit.");
     d.field("missing", &KeptAttribute::missing, "Faces or vertices without a value.");
-    d.object("values", &KeptAttribute::values, "The values of the others.", statistics_fields(""));
+    d.object("values", &KeptAttribute::values, "Statistics of the other values.", statistics_fields(""));
 }
 
 constexpr const char* open = "the surface is open";
 
 void declare_part(DeclareFields<MeasuredPart>& d) {
-    d.field("part", &MeasuredPart::part, "Its name.");
+    d.field("part", &MeasuredPart::part, "The name of the part.");
     d.object("shell", &MeasuredPart::shell, "The surface without thickness.", declare_shell);
     d.object("solid", &MeasuredPart::solid, "The inside, filled with the density.", declare_solid)
         .null_when(open);
-    d.object("faces", &MeasuredPart::faces, "Its faces.", declare_faces);
-    d.object("edges", &MeasuredPart::edges, "Its edges.", declare_edges);
-    d.object("curvature", &MeasuredPart::curvature, "At its vertices.", declare_curvature);
-    d.list("attributes", &MeasuredPart::attributes, "Those that were kept, in the order asked for.",
+    d.object("faces", &MeasuredPart::faces, "Statistics of the faces.", declare_faces);
+    d.object("edges", &MeasuredPart::edges, "Statistics of the edges.", declare_edges);
+    d.object("curvature", &MeasuredPart::curvature, "The curvature at the vertices.", declare_curvature);
+    d.list("attributes", &MeasuredPart::attributes, "The requested attributes, in the requested order.",
            declare_attribute);
 }
 
 void declare_total(DeclareFields<MeasureReport::Total>& d) {
-    d.object("shell", &MeasureReport::Total::shell, "The surfaces.", declare_shell);
-    d.object("solid", &MeasureReport::Total::solid, "The solids.", declare_solid)
-        .null_when("a part is open, or there is none");
+    d.object("shell", &MeasureReport::Total::shell, "The surfaces of all parts.", declare_shell);
+    d.object("solid", &MeasureReport::Total::solid, "The solids of all parts.", declare_solid)
+        .null_when("a part is open, or the scene has no parts");
 }
 
 // --- lines
 
-/// "area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5".
+/// Example: "area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5".
 std::string mass_text(const ShellMass& shell, const std::optional<MeasuredSolid>& solid,
                       const MeasureReport& report) {
     const std::string unit = report.unit == "unknown" ? "" : " " + report.unit;
@@ -183,7 +189,7 @@ std::string mass_text(const ShellMass& shell, const std::optional<MeasuredSolid>
     return text + fmt::format(", centroid {}", readable(solid->centroid));
 }
 
-/// "wall_thickness 1.9 to 2 mm (mean 1.95), none at 12 faces".
+/// Example: "wall_thickness 1.9 to 2 mm (mean 1.95), none at 12 faces".
 std::string attribute_text(const KeptAttribute& kept) {
     const std::string unit = kept.unit.empty() ? "" : fmt::format(" in {}", kept.unit);
     const std::string range = kept.values.count > 0 ? range_text(kept.name.c_str(), kept.values) + unit
@@ -223,10 +229,10 @@ MeasuredSolid measured(const SolidMass& solid, double density) {
 }
 
 void declare_measure_report(DeclareFields<MeasureReport>& d) {
-    d.field("unit", &MeasureReport::unit, "The unit of the scene; unknown: none.");
-    d.field("density", &MeasureReport::density, "As given.");
-    d.object("total", &MeasureReport::total, "All parts together.", declare_total);
-    d.list("parts", &MeasureReport::parts, "Each part.", declare_part);
+    d.field("unit", &MeasureReport::unit, "The unit of the scene, or unknown.");
+    d.field("density", &MeasureReport::density, "The given density.");
+    d.object("total", &MeasureReport::total, "The results of all parts together.", declare_total);
+    d.list("parts", &MeasureReport::parts, "The results of each part.", declare_part);
     d.tell(lines_of);
 }
 

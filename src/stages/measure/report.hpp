@@ -24,9 +24,9 @@ struct MeasuredSolid {
 
 /// A quantity kept as an attribute.
 struct KeptAttribute {
-    std::string name, unit, elements; ///< elements: faces or vertices
-    std::size_t missing = 0;          ///< faces or vertices without a number
-    Statistics values;                ///< of the elements with a number
+    std::string name, unit, elements; ///< elements is "faces" or "vertices"
+    std::size_t missing = 0;          ///< the count of elements without a number
+    Statistics values;                ///< statistics of the elements with a number
 };
 
 struct MeasuredPart {
@@ -51,7 +51,7 @@ struct MeasureReport {
 void declare_measure_report(DeclareFields<MeasureReport>& d);
 
 void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context);
-/// Writes the files that the options name. table: the rows for files that list faces.
+/// Writes the files that the options name. table: the rows of the face table.
 void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
                    Context& context);
 

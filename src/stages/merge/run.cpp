@@ -17,8 +17,7 @@ struct MergeOptions {
 };
 
 void declare(Declare<MergeOptions>& d) {
-    d.option("name", &MergeOptions::name,
-             "The name of the joined part; the name of the first part unless given.")
+    d.option("name", &MergeOptions::name, "The name of the joined part. Default: the name of the first part.")
         .primary();
     d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.")
         .also_called(weld_synonyms);
@@ -32,9 +31,9 @@ struct MergeReport {
 
 void declare_report(DeclareFields<MergeReport>& d) {
     d.field("part", &MergeReport::part, "The name of the joined part.").only_when("a part was selected");
-    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices that were merged with others.")
+    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices merged into others.")
         .only_when("a part was selected");
-    d.field("merged", &MergeReport::merged, "The names of the parts that were joined, in order.");
+    d.field("merged", &MergeReport::merged, "The names of the joined parts, in order.");
 }
 
 /// Numbers the faces by their original part, for `separate: group`.
@@ -63,7 +62,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
         if (part.skinned)
             context.warn("W-SKIN",
                          fmt::format("merge: part '{}' is in bind pose and loses its skin", part.name),
-                         "leave it out with `only`, or write the parts as they are");
+                         "exclude it with `only`, or write the parts without merge");
         context.attribute_changes(part, drop_skin(part.mesh, "merged parts have no skin"));
         mark_group(part.mesh, static_cast<std::uint32_t>(report.merged.size()));
         report.merged.push_back(part.name);

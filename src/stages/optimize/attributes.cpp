@@ -29,7 +29,7 @@ needs_of(const Mesh& mesh,
     return all;
 }
 
-/// "TARGET_3_NORMAL" displaces NORMAL, and the target is "TARGET_3_".
+/// Splits "TARGET_3_NORMAL" into the target "TARGET_3_" and the displaced attribute NORMAL.
 std::pair<std::string_view, std::string_view> displaced(std::string_view name) {
     const auto end = name.find_first_not_of("0123456789", std::string_view("TARGET_").size());
     if (end == std::string_view::npos || name[end] != '_') return {{}, name};
@@ -64,7 +64,7 @@ bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
     if (name == "TANGENT") return !needs.tangents;
     if (a.role == Role::morph_vector) return false;
     if (a.name == "COLOR_0") return is_white(a);
-    if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1) return false; // beyond nine
+    if (a.name.rfind(uv, 0) != 0 || a.name.size() != uv.size() + 1) return false; // ten or more sets
     return !needs.uvs.contains(a.name.back() - '0');
 }
 
@@ -89,7 +89,8 @@ std::vector<std::string> drop_unused_attributes(
     std::erase_if(mesh.attributes,
                   [&](const Attribute& a) { return a.domain != Domain::face && gone(a.name); });
     for (Primitive& p : mesh.primitives)
-        if (!std::all_of(p.attributes.begin(), p.attributes.end(), gone)) // an empty list would mean all
+        if (!std::all_of(p.attributes.begin(), p.attributes.end(),
+                         gone)) // an empty list would mean all attributes
             std::erase_if(p.attributes, gone);
     if (merge_equal_wedges(mesh) > 0) drop_unused(mesh);
     return dropped;

@@ -11,7 +11,7 @@ namespace facetmill::optimize_stage {
 
 namespace {
 
-/// By primitive, whether faces use it.
+/// [primitives] 1 if faces use the primitive.
 std::vector<char> used_primitives(const Mesh& mesh) {
     std::vector<char> used(std::max<std::size_t>(mesh.primitives.size(), 1));
     for (Index f = 0; f < mesh.face_count(); ++f)

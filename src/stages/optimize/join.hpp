@@ -1,5 +1,5 @@
 #pragma once
-// Joins parts that are drawn alike.
+// Joins parts that have the same materials and attributes.
 
 #include "mesh/scene.hpp"
 
@@ -26,9 +26,9 @@ struct JoinedParts {
 [[nodiscard]] std::vector<JoinedParts> groups_to_join(const Scene& scene,
                                                       const std::vector<std::size_t>& candidates);
 
-/// The same for parts that share meshes. parts_of_meshes: the parts of each mesh, ascending. Meshes whose
-/// parts have the same transforms, in order, are joined in the same way at each node, so the results share a
-/// mesh again.
+/// Groups parts that share meshes. parts_of_meshes: the parts of each mesh, ascending. Meshes whose parts
+/// have the same transforms, in order, are joined in the same way at each node, so the results share a mesh
+/// again.
 std::vector<JoinedParts>
 groups_standing_together(const Scene& scene, const std::vector<std::vector<std::size_t>>& parts_of_meshes);
 

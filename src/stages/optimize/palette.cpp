@@ -15,7 +15,7 @@ struct Palette {
     std::vector<io::PlainLook> looks;
     std::map<Index, std::size_t> of_material; ///< the look of each of the scene's materials
     std::set<std::size_t> parts;
-    Index material = none; ///< its index in the scene after creation
+    Index material = none; ///< index of the palette's material in the scene
 };
 
 using Key = std::pair<int, std::string>; // document and kind
@@ -25,7 +25,7 @@ bool has_uvs(const Mesh& mesh) {
                        [](const Attribute& a) { return a.name.rfind("TEXCOORD_", 0) == 0; });
 }
 
-/// The kind that all of a part's materials share; none if they differ.
+/// The kind that all materials of a part share; none if the kinds differ.
 std::optional<Key> kind_of(const Scene& scene, const Mesh& mesh,
                            const std::map<Index, io::PlainLook>& looks) {
     std::optional<Key> kind;
@@ -69,7 +69,7 @@ void add_look(Palette& palette, Index material, const io::PlainLook& look) {
     if (same == palette.looks.end()) palette.looks.push_back(look);
 }
 
-/// By index of the scene's materials.
+/// The plain looks, by index of the scene's materials.
 std::map<Index, io::PlainLook> plain_looks(const Scene& scene,
                                            const std::vector<io::DocumentOptimizer>& documents) {
     std::map<Index, io::PlainLook> looks;
@@ -116,7 +116,7 @@ PaletteCounts make_palettes(Scene& scene, std::vector<io::DocumentOptimizer>& do
             paint(part.mesh, palette);
             part.changed = true;
             if (part.document == palette.document &&
-                part.source_mesh >= 0) // the mesh as written, if no other part has it
+                part.source_mesh >= 0) // the mesh as written, if no other part uses it
                 documents[static_cast<std::size_t>(part.document)].set_material(
                     static_cast<std::size_t>(part.source_mesh), static_cast<std::size_t>(material_index));
         }

@@ -9,8 +9,8 @@
 namespace facetmill::optimize_stage {
 
 struct PaletteCounts {
-    std::size_t palettes = 0, materials = 0; ///< palettes made, and materials merged into them
-    std::size_t too_many_looks = 0;          ///< the most looks of a palette beyond most_looks
+    std::size_t palettes = 0, materials = 0; ///< numbers of palettes made and of materials merged into them
+    std::size_t too_many_looks = 0;          ///< the largest number of looks that exceeded most_looks
 };
 
 /// The maximum number of looks in a palette, so that 12-bit texture coordinates distinguish them.

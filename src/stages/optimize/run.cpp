@@ -366,7 +366,7 @@ class Optimizing {
 
     void drop_tracks() {
         const Box box = scene_.bounds();
-        constexpr double ratio = 1e-6; // of the diagonal
+        constexpr double ratio = 1e-6; // times the diagonal
         const double within = box.empty() ? 0 : ratio * length(box.extent());
         for (auto& tidy : tidies_) tidy.drop_resting_tracks(within);
     }

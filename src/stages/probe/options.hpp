@@ -59,7 +59,7 @@ struct ProbeOptions {
 };
 
 void declare_probe(Declare<ProbeOptions>& d);
-/// Checks beyond the declaration: names of outputs, and conflicting options.
+/// Checks names of outputs and conflicting options, which the declaration cannot express.
 void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems);
 /// The files that probe reads and writes.
 [[nodiscard]] StageFiles probe_files(const ProbeOptions& o);

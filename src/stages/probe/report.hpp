@@ -13,7 +13,7 @@ namespace facetmill::probe_stage {
 class FaceNames {
   public:
     explicit FaceNames(const std::vector<const Part*>& parts);
-    std::pair<const std::string*, Index> of(Index face) const; ///< null for none
+    std::pair<const std::string*, Index> of(Index face) const; ///< null if the point hit no face
 
   private:
     std::vector<Index> first_;
@@ -23,7 +23,8 @@ class FaceNames {
 struct LineAnswers {
     std::vector<Line> lines;
     HitLists hits;
-    std::vector<SegmentFacet> meetings; ///< with the requested face; empty if none was requested
+    std::vector<SegmentFacet>
+        meetings; ///< intersections with the requested face; empty if none was requested
 };
 
 struct ProbedPoint {
@@ -37,7 +38,7 @@ struct ProbedPoint {
 };
 
 struct ProbedHit {
-    double t = 0; ///< 0 to 1 along a segment; a distance for a ray
+    double t = 0; ///< for a segment, the position from 0 to 1; for a ray, the distance
     Vec3 at;
     bool enters = false;
     std::optional<std::string> part;
@@ -50,9 +51,9 @@ struct ProbedLine {
         Vec3 at;
     };
     Vec3 from;
-    std::optional<Vec3> direction, to; ///< of a ray, of a segment
+    std::optional<Vec3> direction, to; ///< a ray's direction, or a segment's end
     std::vector<ProbedHit> hits;
-    std::optional<std::string> meeting; ///< with the requested face
+    std::optional<std::string> meeting; ///< the intersection with the requested face
     std::optional<InPlane> plane;
 };
 using ProbeAnswer = std::variant<ProbedPoint, ProbedLine>;
@@ -60,7 +61,7 @@ using ProbeAnswer = std::variant<ProbedPoint, ProbedLine>;
 struct ProbeReport {
     std::size_t count = 0;
     std::optional<std::array<std::size_t, 4>> sides; ///< point counts by Side
-    std::optional<std::size_t> hit, missed, hits;    ///< of lines
+    std::optional<std::size_t> hit, missed, hits;    ///< counts for lines
     std::optional<NamedCounts> meetings;
     std::optional<Statistics> distance;
     std::vector<ProbeAnswer> answers; ///< the first answers

@@ -20,7 +20,7 @@ struct Questions {
     std::vector<const Part*> surface, sources;
 };
 
-/// Usage error (E-PART) if points_of matches no part.
+/// Throws a usage error (E-PART) if points_of matches no part.
 Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context& context) {
     Questions q;
     const PartFilter sources{o.points_of};
@@ -107,8 +107,8 @@ std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
     return directions;
 }
 
-/// Rays of length 1 from the vertices of all parts of the surface along the attribute `along`. Stage error
-/// (E-ATTRIBUTE) if a part lacks the attribute.
+/// Rays of length 1 from the vertices of all parts of the surface along the attribute `along`. Throws a
+/// stage error (E-ATTRIBUTE) if a part lacks the attribute.
 std::vector<Line> lines_along(const ProbeOptions& o, const Questions& q) {
     std::vector<Line> lines;
     for (const Part* part : q.surface) {
@@ -122,8 +122,8 @@ std::vector<Line> lines_along(const ProbeOptions& o, const Questions& q) {
     return lines;
 }
 
-/// The corners of a face in world space; the number counts through all parts. Usage error (E-FACE) if the
-/// face does not exist.
+/// The corners of a face in world space. Faces are numbered through all parts. Throws a usage error (E-FACE)
+/// if the face does not exist.
 std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
     std::int64_t left = number;
     for (const Part* part : q.surface) {

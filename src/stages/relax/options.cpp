@@ -14,7 +14,7 @@ using Neighbours = RelaxSettings::Neighbours;
 
 /// The maximum number of iterations with until.
 constexpr std::int64_t max_iterations_until = 1000;
-/// The default alpha of hc with until: without pull-back, hc too shrinks the mesh in the end.
+/// The default alpha of hc with until. With alpha 0, hc would shrink the mesh in the end.
 constexpr double alpha_until = 0.1;
 
 void declare_methods(Declare<RelaxOptions>& d) {

@@ -61,7 +61,7 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
     MaskOfParts masks(scene, o.mask, o.caps);
     context.for_each_part(scene, [&](Part& part) {
         settings.to_world = part.transform;
-        if (o.until) // positive even for a part that is a single point, which settles at once
+        if (o.until) // positive even for a part that is a single point
             settings.until = std::max(context.resolve(*o.until, scene, "until", &part),
                                       std::numeric_limits<double>::min());
         settings.mask = masks.of(part);

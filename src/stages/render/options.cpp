@@ -39,7 +39,7 @@ const NamedChoice<Viewpoint>* viewpoint_named(const std::string& name) {
     return nullptr;
 }
 
-/// The number of pictures, and of pictures per row.
+/// The number of pictures, and the number of pictures per row.
 std::pair<std::size_t, std::size_t> count_and_columns(const RenderOptions& o) {
     std::size_t count = 0;
     for (const auto& view : o.views) count += view == turntable ? turns : 1;
@@ -51,7 +51,7 @@ std::pair<std::size_t, std::size_t> count_and_columns(const RenderOptions& o) {
 
 double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// In linear light.
+/// The colour of the ground in linear light.
 std::optional<std::array<float, 3>> ground_of(Ground ground) {
     const auto grey = [](float linear) { return std::array<float, 3>{linear, linear, linear}; };
     switch (ground) {

@@ -31,8 +31,8 @@ struct RenderOptions {
 };
 
 void declare_render(Declare<RenderOptions>& d);
-/// Checks beyond the declaration: formats other than PNG, invalid directions, names of views, sizes of
-/// sheets.
+/// Checks formats other than PNG, directions, names of views and sizes of sheets, which the declaration
+/// cannot express.
 void verify_render(const RenderOptions& o, const Value& given, Problems& problems);
 
 /// The pictures of the parts that the context selects, row by row, with the number per row. They share a
@@ -46,7 +46,7 @@ struct Shots {
 [[nodiscard]] PictureSettings common_settings(const RenderOptions& o, const Scene& scene,
                                               const Context& context);
 
-/// "auto", "percentile", "all", or two numbers.
+/// Converts "auto", "percentile", "all", or two numbers.
 template <>
 struct OptionType<ColourRange> {
     static constexpr OptionKind kind = OptionKind::range;

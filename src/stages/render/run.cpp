@@ -46,11 +46,11 @@ Picture both(const PictureSettings& first, const Scene& a, const Scene& b,
     return sheet;
 }
 
-/// The scenes to draw: the given scenes, or copies with measured numbers.
+/// The scenes to draw: the input scenes, or copies with measured numbers.
 struct Subject {
     std::optional<Scene> own, other; ///< own: replaces the given scene
     const Quantity* quantity = nullptr;
-    std::size_t faces = 0; ///< before large faces were cut
+    std::size_t faces = 0; ///< the number of faces before large faces were cut
 };
 
 /// The tree of a scene's surface.
@@ -109,12 +109,13 @@ PictureSettings settings_of(const RenderOptions& o, const Scene& scene, const Qu
                             Context& context) {
     PictureSettings common = common_settings(o, scene, context);
     common.unit = unit_of_legend(o, quantity, scene.unit, context);
-    const Quantity* named = quantity ? quantity : quantity_named(o.attribute); // measure may have kept it
+    const Quantity* named =
+        quantity ? quantity : quantity_named(o.attribute); // the stage measure may have stored the quantity
     common.range.diverging = named && named->is_signed;
     if (!quantity) return common;
     common.range.lost = lost_by_floats;
     common.attribute = quantity->name;
-    common.shows = {};                                                                 // the measured parts
+    common.shows = {}; // shows all measured parts
     if (quantity->compares && o.edges != EdgeLines::all) common.edges = EdgeLines::no; // faces were cut
     return common;
 }

@@ -22,11 +22,11 @@ struct SectionOptions {
 };
 
 void declare_section(Declare<SectionOptions>& d);
-/// Checks beyond the declaration: invalid planes, and names of drawings.
+/// Checks planes and names of drawings, which the declaration cannot express.
 void verify_section(const SectionOptions& o, const Value& given, Problems& problems);
 
-/// The hatch lines of a scene; all sections of a stack share them. Throws stage (E-HATCH) if the spacing
-/// resolves to 0.
+/// The hatch lines of a scene; all sections of a stack share them. Throws a stage error (E-HATCH) if the
+/// spacing resolves to 0.
 [[nodiscard]] polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene,
                                                    Context& context);
 

@@ -27,7 +27,7 @@ void add(SectionReport& report, const Section& s) {
 
 /// listed: the number of contours listed so far.
 ReportedSection reported(const io::Sheet& sheet, std::size_t& listed) {
-    constexpr std::size_t max_listed = 200; // JSON drawings list all
+    constexpr std::size_t max_listed = 200; // JSON drawings list all contours
     ReportedSection section{sheet.height, sheet.frame.origin, 0, 0, {}};
     ReportedSection::Listed parts;
     for (const auto& part : sheet.parts) {

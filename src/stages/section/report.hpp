@@ -1,5 +1,5 @@
 #pragma once
-// The report on a scene's sections: their sums next to its volume, and their defects.
+// The report on a scene's sections: their sums, the scene's volume, and defects of the sections.
 
 #include "io/drawing/drawing.hpp"
 #include "options/fields.hpp"
@@ -24,7 +24,7 @@ struct SectionReport {
     std::shared_ptr<const io::Drawing> drawing; ///< keeps the referenced sections alive
     std::size_t empty = 0, contours = 0, holes = 0, open = 0;
     std::size_t touched = 0;                         ///< contours that shrank to a point or line
-    std::array<std::size_t, polygon::kinds> kinds{}; ///< of closed contours
+    std::array<std::size_t, polygon::kinds> kinds{}; ///< counts of closed contours by kind
     double area = 0;
     bool oriented = true;
     std::size_t inside_out = 0; ///< clockwise outlines
@@ -34,10 +34,10 @@ struct SectionReport {
 };
 void declare_section_report(DeclareFields<SectionReport>& d);
 
-/// The sums over the drawing. For a stack (spacing above 0, world units), also the areas times the spacing,
-/// and the volume of the selected parts for comparison. volume: none if a part is not closed. Warns of
-/// contours that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or
-/// self-crossing (W-SECTION-CROSSES).
+/// The sums over the drawing. A stack (spacing above 0, world units) also reports the areas times the
+/// spacing, and the volume of the selected parts for comparison. volume: none if a part is not closed. Warns
+/// about contours that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise
+/// (W-INSIDE-OUT) or self-crossing (W-SECTION-CROSSES).
 [[nodiscard]] SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
                                       std::optional<double> volume, Context& context);
 

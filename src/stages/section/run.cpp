@@ -42,7 +42,8 @@ Extent extent_of(const Scene& scene, const Plane& plane, const Context& context)
 }
 
 /// The planes: a single plane without spacing and count, otherwise a stack over the extent
-/// (geometry/section_stack). Throws stage (E-SECTION) if the spacing is 0, and the errors of stack_of.
+/// (geometry/section_stack). Throws a stage error (E-SECTION) if the spacing is 0, and the errors of
+/// stack_of.
 template <class ExtentOf>
 Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, Context& context) {
     if (!o.spacing && !o.count) return {};
@@ -79,8 +80,8 @@ std::optional<double> volume_of(const Scene& scene, const Context& context) {
 }
 
 /// One sheet per plane, with the sections of the selected parts and their hatching. Throws the errors of
-/// section and hatch. Throws limit (E-HATCH) if the hatching of a part would need more than five million
-/// lines.
+/// section and hatch. Throws a limit error (E-HATCH) if the hatching of a part would need more than five
+/// million lines.
 io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& stack,
                           const std::optional<polygon::HatchSettings>& hatching, Context& context) {
     io::Drawing drawing{context.name(), scene.unit, {}};

@@ -52,7 +52,7 @@ FaceLabels by_group(const Part& part, const Scene& scene, const std::string& att
         throw Error(ErrorKind::stage, "E-GROUP",
                     fmt::format("separate: part '{}' has no face attribute '{}'", part.name, attribute),
                     "merge creates 'group'; facetmill info lists the attributes");
-    constexpr double largest = 9007199254740992; // beyond 2^53 doubles skip integers
+    constexpr double largest = 9007199254740992; // beyond 2^53, doubles skip integers
     for (Index f = 0; f < part.mesh.face_count(); ++f)
         if (const double x = a->value(f, 0); !(std::abs(x) <= largest) || x != std::floor(x))
             throw Error(ErrorKind::stage, "E-GROUP",

@@ -25,8 +25,8 @@ struct FaceLabels {
     std::vector<std::string> names;
 };
 
-/// The pieces of the part; none if it stays whole. Throws stage (E-GROUP) if a scene's only part lacks the
-/// attribute, or if a value is not a whole number.
+/// The pieces of the part; none if it stays whole. Throws a stage error (E-GROUP) if a scene's only part
+/// lacks the attribute, or if a value is not a whole number.
 [[nodiscard]] FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
 } // namespace facetmill::separate_stage

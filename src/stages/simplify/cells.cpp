@@ -23,7 +23,7 @@ SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flo
         settings.max_quadric_error =
             of_part ? limit.amount / 100 * diagonal(outline.parts.front().mesh.bounds())
                     : context.resolve(limit, outline, "max_quadric_error") / greatest_stretch(flow.transform);
-        if (!(*settings.max_quadric_error > 0)) settings.max_quadric_error.reset(); // of a single point
+        if (!(*settings.max_quadric_error > 0)) settings.max_quadric_error.reset(); // for a single point
     }
     return settings;
 }
@@ -48,10 +48,10 @@ SimplifyResult told(const cells::HierarchyResult& done, const Mesh& mesh, const 
 
 std::optional<std::string> why_not_on_cells(const SimplifyOptions& o) {
     SimplifySettings settings = o.settings;
-    if (o.max_error) return "max_error is measured on the whole mesh";
-    if (o.vertices) return "the target must be faces or a ratio";
-    if (o.lods) return "lods needs the whole mesh";
-    if (o.certify) return "certify needs the whole mesh";
+    if (o.max_error) return "max_error needs the whole mesh in memory";
+    if (o.vertices) return "on cells the target must be faces or ratio";
+    if (o.lods) return "lods needs the whole mesh in memory";
+    if (o.certify) return "certify needs the whole mesh in memory";
     return cells::why_not_in_cells(settings);
 }
 

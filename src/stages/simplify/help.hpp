@@ -4,87 +4,124 @@
 namespace facetmill::help::simplify {
 
 inline constexpr const char* about =
-    R"(Reduces the number of faces while keeping the shape, the topology and the attributes.)";
+    R"(Reduces the number of faces and preserves the shape, the topology and the attributes.)";
 
 inline constexpr const char* details =
-    R"(Edges are collapsed, the cheapest first, until a target is met. With several targets, simplification
-ends at the first one that is met; the report names it and gives the ratio achieved and what keeps
-the remaining edges from collapsing. Polygons are triangulated first. The method quadric measures
-the area-weighted squared distance to the planes of all faces that a vertex represents; edges at
-which two faces fold back on each other by more than 90 degrees are treated like boundary edges.
-shortest-edge always collapses the shortest edge. Collapses run in passes with a common cost
-threshold, so they follow the order of cost except at vertices that the same pass has already
-changed.
+    R"(The stage collapses edges, the cheapest first, until it meets a target.
+If you give several targets, it stops at the first one that is met.
+The report names this target, the achieved ratio, and the reasons that prevent further collapses.
+Polygons are triangulated first.
 
-Several parts have one target (share: error): edges are collapsed in one order of cost over all of
-them, in world space, until all parts together have the requested number of triangles or vertices;
-the same holds for each level of lods. A part that needs all its triangles is left unchanged. Where
-a node scales unevenly, its largest scale counts. Parts with the same mesh and the same scale
-(instances) are simplified once and get the same result; each of them counts, so the result may be
-below the target by one collapse per instance. With max_error or self_intersections, the share of
-each part is first determined in this way, and then each part is simplified to its share. share:
-equal gives each part the ratio, or a share of faces and vertices in proportion to its own; the
-methods cluster and constrained, which have no comparable costs, always do so.
+The method quadric measures the area-weighted squared distance to the planes of all faces that a
+vertex represents.
+Edges where two faces fold back by more than 90 degrees are treated like boundary edges.
+The method shortest-edge always collapses the shortest edge.
+Collapses run in passes with a common cost threshold.
+They follow the order of cost except at vertices that changed in the same pass.
 
-To keep the shape, simplification stops above the target when necessary: no collapse of the quadric
-methods has a larger error (see largest_error below) than max_quadric_error, by default 1 % of the
-diagonal of the part's bounding box in its local space (for parts simplified as one, of their
-common box). W-SIMPLIFY-LIMIT reports this, unless borders, seams or non-manifold regions keep
-more edges from collapsing. Within this limit a scan can be reduced to a few hundred triangles, and
-a box in a collection stays a box. max_quadric_error does not limit the measured deviation, which is
-usually two to four times as large; max_error limits the deviation, and replaces max_quadric_error.
-With max_quadric_error: off, the surface is simplified to the target regardless of the error.
+By default, several parts share one target (share: error).
+Edges of all parts are collapsed in a single order of cost, in world space.
+This continues until all parts together have the requested number of triangles or vertices.
+Each level of lods works in the same way.
+A part that needs all its triangles is left unchanged.
+If a node scales unevenly, its largest scale counts.
 
-By default these are guaranteed: a closed manifold stays closed and manifold; genus, components and
-boundary loops are kept; no face turns by more than 60 degrees in one collapse; and no face becomes
-degenerate or a duplicate. Edges on boundaries, UV seams, sharp normal seams, and the borders of
-materials and groups are collapsed only along these lines, and both sides stay matched; a vertex
-where several such lines meet stays in place. The same holds for boundaries at exactly the same
-position, within a part and between parts: parts with the same node transform, attributes and
-shading whose boundaries coincide are simplified as one. Where a part meets another that differs in
-these, or that is not selected, its vertices stay in place. Non-manifold vertices stay in
-place, with the edges between them; others may be collapsed into them. Neighbouring faces that are
-oriented inconsistently are simplified as if they were consistent, and each face keeps its orientation. With shortest-edge, vertices at which a boundary turns by more
-than the feature angle stay in place. Isolated vertices are removed. With topology: allow,
-components may vanish, holes may close and handles may be pinched off, which can leave edges of four
-faces; the report gives the counts before and after. The method cluster keeps neither topology nor
-borders, and reports that in the same way.
+Instances (parts with the same mesh and scale) are simplified once and share the result.
+Each instance counts, so the result may be below the target by one collapse per instance.
+With max_error or self_intersections, the stage first finds the share of each part, then simplifies
+each part to it.
+share: equal applies the ratio to each part, or a share of faces and vertices in proportion to its
+size.
+The methods cluster and constrained always use share: equal because their costs are not comparable.
 
-UVs, normals, colours and skin weights enter the error of the quadric methods with weights. A vertex
-that moved takes the attributes of the original surface at the nearest point of the faces that it
-replaces, so textures do not slide; faces keep theirs. Wedges that differ only in their normals are
-merged below the feature angle; a flat-shaded mesh gets the normals of its new faces.
+To preserve the shape, simplification may stop above the target.
+No collapse of the quadric methods may have a larger error (largest_error, see below) than
+max_quadric_error.
+The default is 1 % of the diagonal of the part's bounding box in its local space.
+Parts that are simplified together use their common bounding box.
+W-SIMPLIFY-LIMIT warns about this, unless borders, seams or non-manifold regions block more edges.
+Within this limit, a scan can be reduced to a few hundred triangles, and a box in a collection stays
+a box.
+
+max_quadric_error does not limit the measured deviation, which is usually two to four times as
+large.
+max_error limits the deviation and replaces max_quadric_error.
+max_quadric_error: off simplifies to the target regardless of the error.
+
+By default, a closed manifold stays closed and manifold.
+Genus, components and boundary loops are preserved.
+No face turns by more than 60 degrees in one collapse, and no face becomes degenerate or a
+duplicate.
+
+Edges on boundaries, UV seams, sharp normal seams, and borders of materials and groups collapse only
+along these lines.
+Both sides stay matched.
+A vertex where several such lines meet does not move.
+Boundaries at exactly the same position are also matched, within a part and between parts.
+For this, parts with coincident boundaries and the same node transform, attributes and shading are
+simplified together.
+Where a part meets a different or unselected part, its vertices do not move.
+
+Non-manifold vertices and the edges between them stay unchanged, but other vertices may collapse
+into them.
+Faces with inconsistent orientation are simplified as if they were consistent, and then get their
+orientation back.
+With shortest-edge, vertices where a boundary turns by more than the feature angle do not move.
+Isolated vertices are removed.
+
+With topology: allow, components may vanish, holes may close and handles may be pinched off.
+This can leave edges with four faces, and the report gives the counts before and after.
+The method cluster preserves neither topology nor borders, and reports the same counts.
+
+The error of the quadric methods includes UVs, normals, colours and skin weights, each with a
+weight.
+A moved vertex takes its attributes from the nearest point of the original faces that it replaces,
+so textures do not slide.
+Faces keep their attributes.
+Wedges that differ only in their normals are merged below the feature angle.
+A flat-shaded mesh gets the normals of its new faces.
 
 The deviation is measured in both directions at 100,000 samples and at all vertices, with seed 1.
-The root mean square and the mean are of as many samples as a standard error of 0.5 % takes; on
-triangles where eight or more of these stay below half of the maximum, the others are left out of
-the maximum.
-Several parts share the samples: half are assigned by area, half by the number of triangles. The
-report gives the number of samples of each part. max_error limits this deviation, which is reported
-under deviation, in scene units and as a percentage of the part's diagonal. Points of the surface
-are tracked during simplification, and collapses that exceed the limit in the end are undone one by
-one. This takes many times as long as a ratio. The method cluster meets the limit by the size of its
-cells.
+The root mean square and the mean use as many samples as a standard error of 0.5 % needs.
+If eight or more of these on a triangle stay below half of the maximum, its other samples are
+skipped for the maximum.
+Several parts share the samples: half by area, half by number of triangles.
+The report gives the number of samples of each part.
 
-lods makes a chain of levels of detail: each level is made by further collapses from the previous
-one. write: {path: x.glb, lods: true} puts the levels into one file as MSFT_lod; without lods they
-are written as nodes side by side. only: "*.lod1" writes one level into a file of its own.
+max_error limits this deviation.
+The report gives it in scene units and as a percentage of the part's diagonal.
+Points on the surface are tracked, and collapses that exceed the limit in the end are undone one by
+one.
+This takes many times as long as a ratio.
+The method cluster meets the limit by the size of its cells.
 
-The method constrained keeps boundaries, seams and borders vertex by vertex.
+lods makes a chain of levels of detail, each simplified further from the previous level.
+write: {path: x.glb, lods: true} stores the levels in one file as MSFT_lod.
+Without lods: true, write stores them as separate nodes.
+only: "*.lod1" writes a single level to its own file.
 
-Where facetmill run --memory 2G finds that the mesh needs more, load and simplify work on cells on
-disk: each is simplified while the vertices that it shares with others are held, then two to four as
-one, up to the whole, so no border is left and a closed surface stays closed. This takes ratio or
-faces and the quadric methods; the deviation is not measured then. E-CELLS names what needs the mesh
-in memory.
+The method constrained preserves every vertex on boundaries, seams and borders.
 
-largest_error is, for quadric and cluster, the largest root mean square distance of a new vertex to
-its planes; for shortest-edge, half the length of the longest edge collapsed; for constrained, null.
-A target at or above the input does nothing (W-SIMPLIFY-NOTHING, unless it is 100 %). When no
-collapse is left, simplification stops, and W-SIMPLIFY-STOPPED gives the reason. self_intersections:
-avoid repeats the simplification up to ten times, each time with half the allowed error for faces
-that came to intersect, and then up to six times with those faces left unchanged; the number of
-intersections that remain is reported.
+If the mesh needs more memory than facetmill run --memory 2G allows, load and simplify process cells
+on disk.
+Each cell is simplified while its shared vertices stay in place.
+Groups of two to four cells then follow, up to the whole mesh.
+No borders remain, and a closed surface stays closed.
+This needs ratio or faces and a quadric method, and does not measure the deviation.
+E-CELLS names options that need the mesh in memory.
+
+largest_error depends on the method.
+For quadric and cluster, it is the largest root mean square distance of a new vertex to its planes.
+For shortest-edge, it is half the length of the longest collapsed edge.
+For constrained, it is null.
+
+A target at or above the size of the input changes nothing (W-SIMPLIFY-NOTHING, unless it is 100 %).
+If no collapse remains, simplification stops and W-SIMPLIFY-STOPPED gives the reason.
+
+self_intersections: avoid repeats the simplification up to ten times, and halves the allowed error
+of faces that intersect each time.
+It then tries up to six times with these faces unchanged.
+The report gives the number of remaining intersections.
 
 Sources: P. Bourke, 'Surface (polygonal) Simplification' (1997); M. Garland and P. Heckbert,
 'Surface simplification using quadric error metrics' (1997); H. Hoppe, 'New quadric metric for

@@ -36,11 +36,11 @@ bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
 }
 
 void declare_lock(Declare<LockOptions>& d) {
-    d.option("boundary", &LockOptions::boundary, "Keeps all vertices of the boundary.");
-    d.option("seams", &LockOptions::seams, "Keeps the vertices of seams and of borders of materials.");
+    d.option("boundary", &LockOptions::boundary, "Keeps all boundary vertices.");
+    d.option("seams", &LockOptions::seams, "Keeps the vertices of seams and of borders between materials.");
     d.option("group", &LockOptions::group,
              "Keeps the vertices of borders between the groups of an OBJ file.");
-    d.group("box", &LockOptions::box, "Keeps the vertices within this box, in world space.", declare_box);
+    d.group("box", &LockOptions::box, "Keeps the vertices in this box, in world space.", declare_box);
     const Json words = {{"enum", {"boundary", "seams", "group"}}};
     d.shorthand(ShortForm::list, "boundary, seams or group, or a list of them",
                 {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
@@ -48,28 +48,28 @@ void declare_lock(Declare<LockOptions>& d) {
 
 void declare_weights(Declare<AttributeWeights>& d) {
     d.option("uv", &AttributeWeights::uv,
-             "Texture coordinates: a texture that slides by a length counts as this many times a surface "
-             "displaced by that length (a factor).")
+             "The weight of texture coordinates. A texture that slides by a length counts as this many times "
+             "a surface that moves by that length.")
         .at_least(0);
     d.option("normal", &AttributeWeights::normal,
-             "Normals: a difference of 1 counts as a surface displaced by this percentage of the part's "
-             "diagonal (a factor).")
+             "The weight of normals. A difference of 1 counts as a surface that moves by this percentage of "
+             "the part's diagonal.")
         .at_least(0);
     d.option("colour", &AttributeWeights::colour,
-             "Colours: a difference of full intensity counts as a surface displaced by this percentage of "
-             "the part's diagonal (a factor).")
+             "The weight of colours. A difference of full intensity counts as a surface that moves by this "
+             "percentage of the part's diagonal.")
         .at_least(0);
     d.option("skin", &AttributeWeights::skin,
-             "Skin weights: a difference of 1 counts as a surface displaced by this percentage of the part's "
-             "diagonal (a factor).")
+             "The weight of skin weights. A difference of 1 counts as a surface that moves by this "
+             "percentage of the part's diagonal.")
         .at_least(0);
-    d.shorthand(ShortForm::number, "one number for all, 0 for the shape alone", OptionType<double>::schema(),
+    d.shorthand(ShortForm::number, "one number for all; 0 uses only the shape", OptionType<double>::schema(),
                 [](const Value& v, AttributeWeights& out, Problems& problems) {
                     double all = 0;
                     if (!OptionType<double>::parse(v, all, problems)) return false;
                     out = {all, all, all, all};
                     if (all >= 0) return true;
-                    problems.add(v.mark, "E-RANGE", "weights are at least 0");
+                    problems.add(v.mark, "E-RANGE", "weights must be at least 0");
                     return false;
                 });
 }
@@ -79,10 +79,10 @@ void declare_constraints(Declare<ConstraintOptions>& d) {
              "The largest angle between the normal of a face and its original normal.")
         .between(0, 180);
     d.option("aspect_ratio", &ConstraintOptions::aspect_ratio,
-             "The largest aspect ratio of a face, as validate measures it (a ratio, 1 for equal sides).")
+             "The largest aspect ratio of a face, as in validate. 1 means equal sides.")
         .at_least(1);
     d.option("roundness", &ConstraintOptions::roundness,
-             "The smallest roundness of a face: 1 is equilateral, 0 is degenerate (a ratio, without unit).")
+             "The smallest roundness of a face. 1 is equilateral, 0 is degenerate.")
         .between(0, 1);
     d.option("hausdorff", &ConstraintOptions::hausdorff,
              "The largest distance of a removed vertex from the faces near it.")
@@ -91,7 +91,7 @@ void declare_constraints(Declare<ConstraintOptions>& d) {
 
 void declare_levels(Declare<LevelOptions>& d) {
     d.option("ratios", &LevelOptions::ratios,
-             "The ratio of the triangles that remains at each level, from fine to coarse: [100%, 50%, 10%].")
+             "The ratio of remaining triangles at each level, from fine to coarse: [100%, 50%, 10%].")
         .required();
     d.shorthand(ShortForm::list, "a list of ratios", {{"type", "array"}},
                 [](const Value& v, LevelOptions& out, Problems& problems) {
@@ -99,16 +99,15 @@ void declare_levels(Declare<LevelOptions>& d) {
                 });
 }
 
-/// A length, or off.
+/// An option that is a length, or off.
 void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
-    Option& o =
-        d.option("max_quadric_error", &SimplifyOptions::max_quadric_error,
-                 "Keeps the shape when ratio, faces, vertices or lods ask for too few triangles: no collapse "
-                 "has a larger root mean square distance of the new vertex to the planes that it represents. "
-                 "of part: of the diagonal of the part's bounding box in its local space. off: no limit "
-                 "(also with max_error). For quadric and quadric-endpoints.")
-            .above(0)
-            .option();
+    Option& o = d.option("max_quadric_error", &SimplifyOptions::max_quadric_error,
+                         "Limits the error when ratio, faces, vertices or lods ask for too few triangles. It "
+                         "limits the root mean square distance of a new vertex to the planes that it "
+                         "represents. of part refers to the diagonal of the part's bounding box in its local "
+                         "space. off and max_error remove the limit. For quadric and quadric-endpoints.")
+                    .above(0)
+                    .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
         if (!v.is_scalar() || v.deferred || !(v.text == "off" || v.as_bool() == false))
             return plain(self, v, target, problems);
@@ -120,29 +119,29 @@ void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
 
 void declare_share(Declare<SimplifyOptions>& d) {
     using Share = SimplifyOptions::Share;
-    d.choice<Share>("share", &SimplifyOptions::share,
-                    {{"error", Share::error,
-                      "triangles stay where they are needed: edges are collapsed in one order of cost over "
-                      "all parts, until all together meet the target"},
-                     {"equal", Share::equal,
-                      "each part meets the ratio, or its share of faces and vertices, separately"}},
-                    "How several parts share a target; cluster and constrained always share it equally.");
+    d.choice<Share>(
+        "share", &SimplifyOptions::share,
+        {{"error", Share::error,
+          "collapse edges of all parts in a single order of cost until all parts together meet the target"},
+         {"equal", Share::equal, "each part separately meets the ratio, or its share of faces and vertices"}},
+        "How several parts share a target. cluster and constrained always use equal.");
 }
 
 void declare_targets(Declare<SimplifyOptions>& d) {
     d.option("ratio", &SimplifyOptions::ratio,
-             "The ratio of the triangles that remain, for all parts together: 25%, or 0.25.")
+             "The ratio of remaining triangles, for all parts together: 25%, or 0.25.")
         .also_called("percent percentage target_ratio fraction target keep")
-        .also_called("reduction target_reduction", "ratio, the share that stays and not the one that goes")
+        .also_called("reduction target_reduction",
+                     "ratio, the share that remains, not the share that is removed")
         .above(0)
         .at_most(1)
         .primary();
     d.option("faces", &SimplifyOptions::faces,
-             "The maximum number of triangles that remain (a count), of all parts together.")
+             "The maximum number of remaining triangles, for all parts together.")
         .also_called(property_named("faces")->also_called)
         .at_least(1);
     d.option("vertices", &SimplifyOptions::vertices,
-             "The maximum number of vertices that remain (a count), of all parts together.")
+             "The maximum number of remaining vertices, for all parts together.")
         .also_called(property_named("vertices")->also_called)
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
@@ -158,38 +157,35 @@ void declare_settings(Declare<SimplifySettings>& d) {
     d.choice<Method>(
         "method", &SimplifySettings::method,
         {{"quadric", Method::quadric,
-          "smallest squared distance to the planes of the faces; new vertices are placed where it is "
-          "smallest"},
+          "the smallest squared distance to the planes of the faces; new vertices are placed at the minimum"},
          {"quadric-endpoints", Method::quadric_endpoints,
-          "the same, but no vertex moves: the remaining vertices are vertices of the input"},
-         {"constrained", Method::constrained,
-          "quadric-endpoints under constraints, by OpenMesh; see constraints"},
-         {"shortest-edge", Method::shortest_edge, "the shortest edge is collapsed to its midpoint"},
+          "the same, but vertices do not move, so all remaining vertices come from the input"},
+         {"constrained", Method::constrained, "quadric-endpoints with limits, by OpenMesh; see constraints"},
+         {"shortest-edge", Method::shortest_edge, "collapse the shortest edge to its midpoint"},
          {"cluster", Method::cluster,
-          "all vertices in a grid cell are merged: very fast, for previews; topology is not kept"}},
-        "Which edge is collapsed next.");
+          "merge all vertices in a grid cell: very fast, for previews; topology may change"}},
+        "The method that selects the next edge.");
     d.choice<Topology>("topology", &SimplifySettings::topology,
-                       {{"keep", Topology::keep, "genus, components and boundary loops are kept"},
+                       {{"keep", Topology::keep, "preserve genus, components and boundary loops"},
                         {"allow", Topology::allow,
                          "small components may vanish, holes may close and handles may be pinched off; the "
                          "report counts them"}},
                        "Whether the topology may change.")
         .also_called("preserve_topology preservetopology", "(topology: keep)");
     d.group("weights", &SimplifySettings::weights,
-            "The weights of attributes in the error of the quadric methods, relative to the shape; 0 ignores "
+            "The weights of attributes in the error of the quadric methods, relative to the shape. 0 ignores "
             "an attribute.",
             declare_weights);
     d.choice<Intersections>(
          "self_intersections", &SimplifySettings::self_intersections,
-         {{"ignore", Intersections::ignore, "they are not searched for"},
-          {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
-          {"avoid", Intersections::avoid,
-           "new intersections are avoided: where faces would intersect, fewer are removed"}},
-         "What is done about faces that would intersect.")
+         {{"ignore", Intersections::ignore, "do not search for intersections"},
+          {"count", Intersections::count, "count intersecting pairs of faces before and after"},
+          {"avoid", Intersections::avoid, "remove fewer faces where new intersections would appear"}},
+         "How to handle faces that would intersect.")
         .also_called(property_named("self_intersections")->also_called);
 }
 
-/// Collects conflicts: options that only other methods use, or that no given option uses.
+/// Collects conflicts: options that only other methods use, and options without effect.
 class Conflicts {
   public:
     Conflicts(const Value& given, Problems& problems) : given_(given), problems_(problems) {}
@@ -220,29 +216,26 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
     declare_targets(d);
     d.embed(&SimplifyOptions::settings, declare_settings);
     d.group("lock", &SimplifyOptions::lock,
-            "What is kept vertex by vertex. Boundaries, seams and borders that are not locked collapse only "
-            "along themselves.",
+            "Vertices to keep. Unlocked boundaries, seams and borders collapse only along themselves.",
             declare_lock)
         .also_called(
             "preserve_boundary preserve_border lock_border lock_boundary preserve_borders keep_boundary",
             "lock: {boundary: true}");
     d.option("feature_angle", &SimplifyOptions::feature_angle,
-             "Seams that exist only in the normals are merged at edges whose dihedral angle is below this "
-             "(an angle between the normals of the two faces); flat-shaded meshes stay flat-shaded. 0 keeps "
-             "every such seam.")
+             "Merges seams that differ only in normals if the normals of the two faces differ by less than "
+             "this angle. Flat-shaded meshes stay flat-shaded. 0 keeps every such seam.")
         .between(0, 180);
     d.group("constraints", &SimplifyOptions::constraints,
-            "For the method constrained: limits that no collapse may exceed.", declare_constraints);
-    d.group(
-        "lods", &SimplifyOptions::lods,
-        "Levels of detail instead of one target: each is made from the previous one, and all become parts of "
-        "the scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as "
-        "MSFT_lod).",
-        declare_levels);
+            "Limits for the method constrained. No collapse may exceed them.", declare_constraints);
+    d.group("lods", &SimplifyOptions::lods,
+            "Makes levels of detail instead of meeting one target. Each level starts from the previous one. "
+            "All levels become parts of the scene: NAME, NAME.lod1, NAME.lod2, ... write: {lods: true} "
+            "stores them in one glTF as MSFT_lod.",
+            declare_levels);
     d.option("measure", &SimplifyOptions::measure,
-             "Measures the deviation from the input in both directions, and reports it.");
+             "Measures and reports the deviation from the input, in both directions.");
     d.option("certify", &SimplifyOptions::certify,
-             "Also finds a guaranteed upper bound of the deviation (this takes time).");
+             "Also finds a guaranteed upper bound of the deviation. This takes time.");
     d.at_least_one({"ratio", "faces", "vertices", "max_error", "lods"});
 }
 
@@ -253,17 +246,16 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
     for (const Refusal& refusal : o.lods ? check_simplify_levels(s) : check_simplify_settings(s))
         add_refusal(refusal, "simplify", given, problems);
     conflicts.refuse(o.settings.method != Method::constrained && conflicts.has("constraints"), "constraints",
-                     "constraints go with the method constrained only", "method: constrained");
+                     "constraints need the method constrained", "use method: constrained");
     conflicts.refuse(!has_quadrics(o) && conflicts.has("weights"), "weights",
-                     "weights go with the methods quadric and quadric-endpoints only",
-                     "method: quadric, which is the default");
+                     "weights need the method quadric or quadric-endpoints",
+                     "use method: quadric, the default");
     const bool limited = o.max_quadric_error && conflicts.has("max_quadric_error");
     conflicts.refuse(!has_quadrics(o) && limited, "max_quadric_error",
-                     "max_quadric_error goes with the methods quadric and quadric-endpoints only",
-                     "method: quadric, which is the default");
+                     "max_quadric_error needs the method quadric or quadric-endpoints",
+                     "use method: quadric, the default");
     conflicts.refuse(o.max_error && limited, "max_quadric_error",
-                     "max_error limits the deviation already, in place of max_quadric_error",
-                     "leave out one of the two");
+                     "max_error replaces max_quadric_error, so only one can be given", "remove one of them");
     if (conflicts.has("share") && o.share == SimplifyOptions::Share::error)
         add_refusal(check_simplify_sharing({.method = o.settings.method}), "simplify", given, problems);
     if (o.lock.box) verify_box(*o.lock.box, conflicts.mark("lock"), problems);

@@ -28,7 +28,7 @@ struct SimplifyOptions {
     std::optional<Length> max_error;
     Share share = Share::error;
     std::optional<Length> max_quadric_error = Length::percent(1, Length::Of::part); ///< none: off
-    SimplifySettings settings{}; ///< options that the algorithm uses without conversion; the rest is unset
+    SimplifySettings settings{}; ///< holds only options that the algorithm uses without conversion
     LockOptions lock;
     Angle feature_angle = Angle::degrees(30);
     std::optional<LevelOptions> lods;
@@ -45,7 +45,7 @@ void declare_simplify(Declare<SimplifyOptions>& d);
 /// Checks for options that conflict, which the declaration cannot express.
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems);
 
-/// The settings for all parts together, with lengths as written and without the planes of lock: {box}.
+/// The settings for all parts together. Lengths are unresolved, and the planes of `lock: {box}` are missing.
 [[nodiscard]] SimplifySettings simplify_settings(const SimplifyOptions& o);
 
 } // namespace facetmill::simplify_stage

@@ -35,8 +35,8 @@ SimplifyPartsSettings settings_in(const Scene& scene, const SimplifyOptions& o, 
     return s;
 }
 
-/// Whether a level's target differs from the current counts. A ratio of 100 %, or the same number of faces,
-/// asks for nothing.
+/// Whether a level's target differs from the current counts. False for a ratio of 100 % or the same number
+/// of faces.
 bool asks_for_less(const SimplifyOptions& o, const MeshCounts& all, std::size_t level) {
     if (o.lods) return o.lods->ratios[level].value < 1;
     const auto differs = [](std::optional<std::int64_t> target, std::size_t count) {
@@ -53,23 +53,23 @@ bool asks_for_less(const SimplifyOptions& o, const MeshCounts& all, std::size_t 
 void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context) {
     if (r.faces_before == 0 && asked.less)
         context.warn("W-SIMPLIFY-NOTHING",
-                     fmt::format("part '{}' has no faces, which are what simplify makes fewer: {} as it is",
-                                 part.name,
-                                 part.mesh.vertex_count() > 0 ? "the cloud of points stays" : "it stays"),
-                     "leave it out with only; crop, clip and tile work on points");
+                     fmt::format("part '{}' has no faces to simplify: {} unchanged", part.name,
+                                 part.mesh.vertex_count() > 0 ? "the point cloud stays" : "it stays"),
+                     "exclude it with only; crop, clip and tile can reduce points");
     else if (r.stop == Stop::nothing && asked.less)
         context.warn("W-SIMPLIFY-NOTHING",
                      fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
                                  counted(r.faces_before, "triangle"),
                                  counted(r.vertices_before, "vertex", "vertices")));
-    if (r.stop == Stop::stuck && asked.target) // without a target, the error limit ends the work
+    if (r.stop == Stop::stuck && asked.target) // without a target, the error limit stops the simplification
         context.warn("W-SIMPLIFY-STOPPED",
                      fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
                                  counted(r.faces_after, "triangle"), held_by(r)),
                      hint_for(r));
     if (r.faces_before > 0 && r.faces_after == 0)
-        context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
-                     "ask for more faces, or keep the topology (topology: keep, and no cluster)");
+        context.warn(
+            "W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
+            "ask for more faces, or preserve the topology (topology: keep, and another method than cluster)");
 }
 
 void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context) {
@@ -83,13 +83,12 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
     const std::string who = limited.size() == 1
                                 ? first + " stopped at"
                                 : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
-    context.warn(
-        "W-SIMPLIFY-LIMIT",
-        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
-                    "than max_quadric_error ({})",
-                    who, grouped(after), grouped(before), limit.text),
-        "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: off "
-        "simplifies to the target regardless of the error");
+    context.warn("W-SIMPLIFY-LIMIT",
+                 fmt::format("{} {} of {} triangles, above the target: fewer triangles would move the "
+                             "surface by more than max_quadric_error ({})",
+                             who, grouped(after), grouped(before), limit.text),
+                 "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: "
+                 "off simplifies to the target regardless of the error");
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
@@ -98,7 +97,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;
     std::vector<Limited> limited;
     std::vector<Part> coarser;
-    // An entry takes a kilobyte, so growing the list would copy several times as much.
+    // Entries take a kilobyte each, so growing the list would copy much data.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
         scene.parts[number].changed = true;

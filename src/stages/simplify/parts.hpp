@@ -12,8 +12,8 @@ namespace facetmill::simplify_stage {
 [[nodiscard]] Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context,
                                    SimplifyReport& report);
 
-/// less: the target is below the current counts. target: it is a number of faces or vertices, not only an
-/// error.
+/// less: the target is below the current counts. target: the target is a number of faces or vertices, not
+/// only an error.
 struct AskedFor {
     bool less = true, target = true;
 };

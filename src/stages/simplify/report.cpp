@@ -18,13 +18,13 @@ struct Reason {
 };
 
 std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
-    return {{b.seams, "held by seams and by borders of materials and groups",
-             "texture islands, materials and groups keep their borders: fewer of them allow more collapses"},
-            {b.borders, "by boundaries and locks", "ask for more faces, or lock less"},
+    return {{b.seams, "by seams and by borders of materials and groups",
+             "use fewer texture islands, materials and groups: their borders are preserved"},
+            {b.borders, "by boundaries and locks", "ask for more faces, or lock fewer vertices"},
             {b.non_manifold, "at non-manifold regions", "use clean before simplify to repair them"},
             {b.topology, "by topology", "topology: allow lets small components, holes and handles vanish"},
-            {b.flips, "would flip a face", "ask for more faces"},
-            {b.error, "by max_quadric_error", "a larger max_quadric_error, or off"}};
+            {b.flips, "because a face would flip", "ask for more faces"},
+            {b.error, "by max_quadric_error", "allow a larger max_quadric_error, or off"}};
 }
 
 } // namespace
@@ -34,7 +34,8 @@ std::string held_by(const SimplifyResult& r) {
     std::string text;
     for (const auto& [edges, what, hint] : reasons(r.blocked))
         if (edges > 0) append_item(text, fmt::format("{} {}", grouped(edges), what));
-    return text.empty() ? "no collapse was left within the constraints" : "of the edges left, " + text;
+    return text.empty() ? "no collapse was left within the constraints"
+                        : "the remaining edges are blocked: " + text;
 }
 
 std::string hint_for(const SimplifyResult& r) {
@@ -49,12 +50,12 @@ namespace {
 using Stop = SimplifyResult::Stop;
 using Shading = NormalSeams::Shading;
 
-/// A member of the part's result.
+/// Reads a member of the part's result.
 template <class T>
 auto of_result(T SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) -> const T& { return p.result.*member; };
 }
-/// A length, in scene units.
+/// Reads a length, in scene units.
 auto of_length(std::optional<double> SimplifyResult::*member) {
     return [member](const SimplifiedPart& p) {
         const auto& length = p.result.*member;
@@ -64,25 +65,23 @@ auto of_length(std::optional<double> SimplifyResult::*member) {
 
 void declare_blocked(DeclareFields<SimplifyResult::Blocked>& d) {
     using Blocked = SimplifyResult::Blocked;
-    d.field("borders", &Blocked::borders, "At boundaries and locks.");
-    d.field("seams", &Blocked::seams, "At seams, and at borders of materials and groups.");
-    d.field("non_manifold", &Blocked::non_manifold, "At non-manifold vertices.");
+    d.field("borders", &Blocked::borders, "Edges blocked by boundaries and locks.");
+    d.field("seams", &Blocked::seams, "Edges blocked by seams, or by borders of materials and groups.");
+    d.field("non_manifold", &Blocked::non_manifold, "Edges blocked by non-manifold vertices.");
     d.field("topology", &Blocked::topology,
-            "Their collapse would change the genus, close a hole, or make a component vanish.");
-    d.field("flips", &Blocked::flips, "Their collapse would flip or flatten a face.");
-    d.field("error", &Blocked::error,
-            "Their collapse would move the surface too far, by max_error or max_quadric_error.");
+            "Edges whose collapse would change the genus, close a hole, or make a component vanish.");
+    d.field("flips", &Blocked::flips, "Edges whose collapse would flip or flatten a face.");
+    d.field("error", &Blocked::error, "Edges whose collapse would exceed max_error or max_quadric_error.");
 }
 
 void declare_intersections(DeclareFields<SimplifyResult>& d) {
     const auto count = [](std::optional<std::size_t> SimplifyResult::*member) {
         return [member](const SimplifyResult& r) { return (r.*member).value_or(0); };
     };
-    d.field("before", count(&SimplifyResult::intersections_before),
-            "Pairs of faces that intersected before.");
-    d.field("after", count(&SimplifyResult::intersections_after), "Pairs of faces that intersect now.");
+    d.field("before", count(&SimplifyResult::intersections_before), "Intersecting pairs of faces before.");
+    d.field("after", count(&SimplifyResult::intersections_after), "Intersecting pairs of faces after.");
     d.field("held_vertices", &SimplifyResult::held,
-            "Vertices that were allowed less error, to avoid intersections.");
+            "Vertices whose allowed error was reduced to avoid intersections.");
 }
 
 void declare_topology(DeclareFields<Properties>& d) {
@@ -97,8 +96,8 @@ void declare_topology(DeclareFields<Properties>& d) {
 }
 
 void declare_topologies(DeclareFields<SimplifiedPart::Topology>& d) {
-    d.object("before", &SimplifiedPart::Topology::before, "Of the part that entered.", declare_topology);
-    d.object("after", &SimplifiedPart::Topology::after, "Of the part that left.", declare_topology);
+    d.object("before", &SimplifiedPart::Topology::before, "Before the stage.", declare_topology);
+    d.object("after", &SimplifiedPart::Topology::after, "After the stage.", declare_topology);
 }
 
 void declare_size(DeclareFields<SimplifiedPart::Size>& d) {
@@ -109,8 +108,8 @@ void declare_size(DeclareFields<SimplifiedPart::Size>& d) {
 }
 
 void declare_sizes(DeclareFields<SimplifiedPart::Sizes>& d) {
-    d.object("before", &SimplifiedPart::Sizes::before, "Of the part that entered.", declare_size);
-    d.object("after", &SimplifiedPart::Sizes::after, "Of the part that left.", declare_size);
+    d.object("before", &SimplifiedPart::Sizes::before, "Before the stage.", declare_size);
+    d.object("after", &SimplifiedPart::Sizes::after, "After the stage.", declare_size);
 }
 
 void declare_counts(DeclareFields<SimplifiedPart>& d) {
@@ -123,20 +122,20 @@ void declare_counts(DeclareFields<SimplifiedPart>& d) {
         const double before = double(p.result.faces_before), after = double(p.result.faces_after);
         return before > 0 ? std::optional(after / before) : std::nullopt;
     };
-    d.field("ratio", ratio, "The ratio of the triangles after to those before.")
-        .null_when("there were no triangles");
+    d.field("ratio", ratio, "The number of triangles after, divided by the number before.")
+        .null_when("the input had no triangles");
     d.choice("stopped_by", of_result(&SimplifyResult::stop),
-             {{"nothing to do", Stop::nothing, "the part was at or below every target"},
+             {{"nothing to do", Stop::nothing, "the part already met every target"},
               {"ratio", Stop::ratio, "met"},
               {"faces", Stop::faces, "met"},
               {"vertices", Stop::vertices, "met"},
               {"max_error", Stop::max_error, "further collapses would exceed the deviation"},
               {"max_quadric_error", Stop::max_quadric_error, "further collapses would exceed the error"},
-              {"stuck", Stop::stuck, "no collapse was left that keeps the guarantees"}},
-             "What ended the simplification.");
+              {"stuck", Stop::stuck, "no remaining collapse preserves the guarantees"}},
+             "The reason why simplification ended.");
 }
 
-/// Counts of the work, and of the remaining obstacles.
+/// Declares the counts of the work, and of the reasons why edges could not collapse.
 void declare_work(DeclareFields<SimplifiedPart>& d) {
     d.field("largest_error", of_length(&SimplifyResult::largest_error),
             "The largest error of a collapse, as the method measures it.")
@@ -144,10 +143,11 @@ void declare_work(DeclareFields<SimplifiedPart>& d) {
         .null_when("the method has none");
     d.field("max_quadric_error", &SimplifiedPart::max_quadric_error, "The limit on largest_error.")
         .unit("scene units")
-        .null_when("there was none");
-    d.field("collapses", of_result(&SimplifyResult::collapses), "Collapses that led to the result.");
+        .null_when("the error was not limited");
+    d.field("collapses", of_result(&SimplifyResult::collapses),
+            "The number of collapses that led to the result.");
     d.object("blocked_edges", of_result(&SimplifyResult::blocked),
-             "What keeps the remaining edges from collapsing.", declare_blocked);
+             "The reasons that block the remaining edges.", declare_blocked);
     d.field("cell", of_length(&SimplifyResult::cell), "The edge length of the cells.")
         .unit("scene units")
         .only_when("the method is cluster");
@@ -170,34 +170,37 @@ void declare_work(DeclareFields<SimplifiedPart>& d) {
         counts->held = p.result.held;
         return counts;
     };
-    d.object("self_intersections", counted, "Pairs of faces that intersect.", declare_intersections)
-        .only_when("they are counted or avoided");
+    d.object("self_intersections", counted, "Intersecting pairs of faces.", declare_intersections)
+        .only_when("intersections are counted or avoided");
 }
 
 void declare_part(DeclareFields<SimplifiedPart>& d) {
-    d.choice("normals", of_result(&SimplifyResult::shading),
-             {{"seams merged", Shading::smoothed, "such seams were merged where faces meet at a small angle"},
-              {"flat shading kept", Shading::faceted, "faces get normals of their own"},
-              {"as given", Shading::as_given, "nothing was done"}},
-             "What was done with seams that exist only in the normals.");
+    d.choice(
+        "normals", of_result(&SimplifyResult::shading),
+        {{"seams merged", Shading::smoothed, "seams were merged between faces that meet at a small angle"},
+         {"flat shading kept", Shading::faceted, "faces get their own normals"},
+         {"as given", Shading::as_given, "nothing was changed"}},
+        "The handling of seams that differ only in normals.");
     d.field("merged_wedges", of_result(&SimplifyResult::merged_wedges), "Wedges that were merged.");
     const auto turned = [](const SimplifiedPart& p) {
         return p.result.turned > 0 ? std::optional(p.result.turned) : std::nullopt;
     };
     d.field("turned_faces", turned,
-            "Faces that were reversed during simplification, to be consistent with their neighbours; in the "
-            "result they have their orientation.")
-        .only_when("there are such");
+            "Faces that were reversed temporarily to match their neighbours. In the result they have their "
+            "original orientation.")
+        .only_when("such faces exist");
     declare_counts(d);
     declare_work(d);
-    d.field("part", &SimplifiedPart::part, "Its name.");
-    d.field("joint_with", &SimplifiedPart::joint_with, "The parts with which it was simplified as one.")
-        .only_when("there are such");
+    d.field("part", &SimplifiedPart::part, "The name of the part.");
+    d.field("joint_with", &SimplifiedPart::joint_with,
+            "The parts that were simplified together with this part.")
+        .only_when("such faces exist");
     d.object("topology", &SimplifiedPart::topology, "The topology before and after.", declare_topologies)
-        .only_when("the method may change it");
+        .only_when("the method may change the topology");
     d.object("size", &SimplifiedPart::sizes, "The area and the volume before and after.", declare_sizes)
         .only_when("measure or certify is on");
-    d.object("deviation", &SimplifiedPart::deviation, "From the part that entered.", declare_deviation_fields)
+    d.object("deviation", &SimplifiedPart::deviation, "The deviation from the input of this stage.",
+             declare_deviation_fields)
         .only_when("measure or certify is on");
 }
 
@@ -275,8 +278,7 @@ std::vector<std::string> lines_of(const SimplifyReport& report) {
 } // namespace
 
 void declare_simplify_report(DeclareFields<SimplifyReport>& d) {
-    d.list("parts", &SimplifyReport::parts, "Each part that was simplified, and each level of one.",
-           declare_part);
+    d.list("parts", &SimplifyReport::parts, "Every simplified part and every level of detail.", declare_part);
     d.tell(lines_of);
 }
 

@@ -12,8 +12,8 @@ namespace facetmill::simplify_stage {
 struct SimplifyReport {
     std::vector<SimplifiedPart> parts;
 };
-/// Lines for the terminal: counts, the reason for the stop, the deviation. A few parts get a line each; more
-/// are summarized.
+/// Declares the fields, and the lines for the terminal: counts, the reason for the stop, the deviation. A
+/// few parts get a line each; more are summarized.
 void declare_simplify_report(DeclareFields<SimplifyReport>& d);
 
 /// held_by: a phrase with the reasons why the remaining edges cannot collapse. hint_for: the advice for the

@@ -7,7 +7,7 @@
 namespace facetmill::split_stage {
 
 struct SplitOptions {
-    std::optional<SplitMethod> method; ///< none: midpoint, or bisect with a target
+    std::optional<SplitMethod> method; ///< if empty: midpoint, or bisect with a target
     std::optional<std::int64_t> grid, passes, max_faces;
     SplitSettings::Cut cut = SplitSettings::Cut::longest_edge;
     std::optional<Length> max_edge;
@@ -21,10 +21,10 @@ struct SplitOptions {
 };
 
 void declare_split(Declare<SplitOptions>& d);
-/// Checks beyond the declaration: conflicting options and targets.
+/// Checks for conflicting options and targets, which the declaration cannot express.
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems);
 
-/// The settings shared by all parts; max_edge, max_faces and the transform are set per part.
+/// The settings shared by all parts, except max_edge, max_faces and the transform.
 [[nodiscard]] SplitSettings split_settings(const SplitOptions& o);
 
 } // namespace facetmill::split_stage

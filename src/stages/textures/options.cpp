@@ -13,7 +13,7 @@ namespace {
 
 using MaybeFormat = std::optional<Format>;
 
-constexpr std::int64_t longest_side = 16384; // of any readable image
+constexpr std::int64_t longest_side = 16384; // the longest side of any readable image
 
 template <class F>
 std::vector<NamedChoice<F>> formats() {

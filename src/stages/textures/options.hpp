@@ -6,7 +6,7 @@
 namespace facetmill::textures_stage {
 
 enum class Format { keep, png, jpeg, webp, ktx2 };
-/// The name in options: "png".
+/// The format's name in options: "png".
 [[nodiscard]] std::string name_of(Format format);
 
 /// The requested options for images of a role.
@@ -20,7 +20,7 @@ struct TexturesOptions {
     std::optional<std::int64_t> max_size, quality;
     bool power_of_two = false, lossless = false, repack = false;
     Format format = Format::keep;
-    std::int64_t timeout = 600; ///< seconds for one KTX2 image
+    std::int64_t timeout = 600; ///< time limit for a KTX2 image, in seconds
     RoleOptions normals, data;
 };
 
@@ -39,7 +39,8 @@ void declare_textures(Declare<TexturesOptions>& d);
 /// Whether any role is to be encoded as KTX2.
 bool wants_ktx2(const TexturesOptions& o);
 
-/// Checks beyond the declaration: lossless needs WebP, and KTX2 needs an installed encoder.
+/// Checks that lossless has WebP and that KTX2 has an installed encoder, which the declaration cannot
+/// express.
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::textures_stage

@@ -25,9 +25,9 @@ struct TexturesReport {
     std::size_t resized = 0, converted = 0, repacked = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
 };
 
-/// Images with equal bytes, in any document.
+/// A set of images with equal bytes, in any documents.
 struct Job {
-    const io::DocumentImage* image = nullptr; ///< the first of them
+    const io::DocumentImage* image = nullptr; ///< the first of these images
     ImageState before;
     io::ImageUse use;
     std::vector<std::pair<std::size_t, std::size_t>> places; ///< documents and their images
@@ -59,7 +59,7 @@ std::vector<std::vector<io::DocumentImage>> images_of(const Scene& scene, const 
 
 std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& images) {
     std::vector<Job> jobs;
-    std::map<std::string, std::size_t> known; // by digest
+    std::map<std::string, std::size_t> known; // index into jobs, by digest
     for (std::size_t d = 0; d < images.size(); ++d)
         for (const io::DocumentImage& image : images[d]) {
             // Images without bytes cannot be shared.

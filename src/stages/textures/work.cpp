@@ -15,7 +15,7 @@ namespace {
 
 using io::Pixels;
 
-constexpr std::size_t block = 4; ///< KTX2 sides in glTF are multiples of it (KHR_texture_basisu)
+constexpr std::size_t block = 4; ///< KTX2 sides in glTF are multiples of this (KHR_texture_basisu)
 
 std::string format_of(const io::Bytes& bytes) {
     const std::string type = io::media_type(bytes);
@@ -27,7 +27,7 @@ std::string format_of(const io::Bytes& bytes) {
 std::pair<std::size_t, std::size_t> size_for(const ImageState& image, const ImageSettings& s) {
     std::size_t width = image.width, height = image.height;
     if (const std::size_t longest = std::max(width, height); longest > s.max_size) {
-        const auto scaled = [&](std::size_t side) { // rounds to nearest
+        const auto scaled = [&](std::size_t side) { // rounds to the nearest multiple
             return std::max<std::size_t>(1, (2 * side * s.max_size + longest) / (2 * longest));
         };
         width = scaled(width);
@@ -45,7 +45,7 @@ ImageSettings settings_for(const io::ImageUse& use, const TexturesOptions& o) {
     return use.normals ? for_normals(o) : use.numbers ? for_data(o) : for_colours(o);
 }
 
-/// An image in several roles counts as plain numbers, the common denominator.
+/// An image in several roles is treated as plain numbers.
 io::PixelKind kind_of(const io::ImageUse& use) {
     const int roles = int(use.colours) + int(use.normals) + int(use.numbers);
     if (roles != 1 || use.numbers) return io::PixelKind::numbers;
@@ -65,7 +65,7 @@ struct Reason {
     bool warn = false;
 };
 
-/// Throws stage (E-KTX).
+/// Throws a stage error (E-KTX).
 io::Bytes encoded_ktx2(Pixels image, const io::ImageUse& use, const ImageSettings& s,
                        const TexturesOptions& o) {
     if (!use.alpha)
@@ -129,7 +129,8 @@ ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before,
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
     ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);
-    if (use.fallback && format == "webp") format = before.format; // its readers do not support WebP
+    if (use.fallback && format == "webp")
+        format = before.format; // readers that need the fallback do not support WebP
     std::string why;
     bool warn = false;
     if (format == "ktx2") {

@@ -6,7 +6,7 @@
 
 namespace facetmill::textures_stage {
 
-/// An image as described by its file.
+/// The properties of an image file.
 struct ImageState {
     std::string format; ///< "png", "jpeg", "webp", "ktx2", "dds"; empty for others
     std::size_t width = 0, height = 0, bytes = 0;
@@ -19,7 +19,7 @@ struct ProcessedImage {
     bool warn = false; ///< the result differs from the request
 };
 
-/// The format and size, from the header.
+/// Reads format and size from the header.
 [[nodiscard]] ImageState state_of(const io::Bytes& bytes);
 
 /// The image, scaled and encoded by the options of its role, or the reason to keep it. before: its state_of.

@@ -13,16 +13,15 @@ namespace {
 /// A choice that also accepts true and false.
 void declare_self_intersections(Declare<ThickenOptions>& d) {
     using enum ThickenOptions::SelfIntersections;
-    Option& o =
-        d.choice<ThickenOptions::SelfIntersections>(
-             "self_intersections", &ThickenOptions::self_intersections,
-             {{"ignore", ignore, "they are not searched for (also: false)"},
-              {"count", count, "intersecting pairs of faces are counted (also: true)"},
-              {"resolve", resolve,
-               "where walls fold or intersect, the solid is made again without that, by boolean operations"}},
-             "What is done about walls that intersect.")
-            .also_called(property_named("self_intersections")->also_called)
-            .option();
+    Option& o = d.choice<ThickenOptions::SelfIntersections>(
+                     "self_intersections", &ThickenOptions::self_intersections,
+                     {{"ignore", ignore, "do not search for intersections (also: false)"},
+                      {"count", count, "count the intersecting pairs of faces (also: true)"},
+                      {"resolve", resolve,
+                       "rebuild a solid that folds or intersects itself, with boolean operations"}},
+                     "How to handle walls that intersect.")
+                    .also_called(property_named("self_intersections")->also_called)
+                    .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
         const auto yes = v.is_scalar() && !v.deferred ? v.as_bool() : std::nullopt;
         if (!yes) return plain(self, v, target, problems);
@@ -48,8 +47,8 @@ void declare_thickness(Declare<ThickenOptions>& d) {
         problems.add(v.mark, "E-RANGE",
                      fmt::format("'thickness' must be in the range {}, found {}", self.range.to_string(),
                                  v.described()),
-                     "leave out the sign: it is added behind the surface, with thicken: {side: outward} in "
-                     "front of it");
+                     "remove the minus sign; the thickness is added behind the surface, or in front with "
+                     "thicken: {side: outward}");
         return false;
     };
 }
@@ -60,21 +59,21 @@ void declare_thicken(Declare<ThickenOptions>& d) {
     declare_thickness(d);
     d.choice<ThickenSide>(
         "side", &ThickenOptions::side,
-        {{"inward", ThickenSide::inward, "behind the front, which stays in place"},
+        {{"inward", ThickenSide::inward, "behind the surface, which becomes the front"},
          {"outward", ThickenSide::outward, "in front of the surface, which becomes the back"},
-         {"centred", ThickenSide::centred, "half of the thickness on either side"}},
-        "The side to which the thickness is added.");
+         {"centred", ThickenSide::centred, "half of the thickness on each side"}},
+        "The side that gets the thickness.");
     d.choice<Mode>(
         "mode", &ThickenOptions::mode,
-        {{"surface", Mode::surface, "a solid of the given thickness, with walls along boundary edges"},
-         {"edges", Mode::edges, "every edge becomes a cylinder, and the faces are removed"},
-         {"boundary-edges", Mode::boundary_edges, "only boundary edges become cylinders"}},
-        "What gets a thickness.");
+        {{"surface", Mode::surface, "make a solid with the given thickness and walls along boundary edges"},
+         {"edges", Mode::edges, "turn every edge into a cylinder and remove the faces"},
+         {"boundary-edges", Mode::boundary_edges,
+          "turn only boundary edges into cylinders and remove the faces"}},
+        "The elements that get a thickness.");
     d.option("miter_limit", &ThickenOptions::miter_limit,
-             "The largest move of a vertex at a sharp corner, as a multiple of the thickness (a factor).")
+             "The largest movement of a vertex at a sharp corner, as a multiple of the thickness.")
         .between(1, 100);
-    d.option("sides", &ThickenOptions::sides, "The number of sides of each cylinder (a count).")
-        .between(3, 360);
+    d.option("sides", &ThickenOptions::sides, "The number of sides of each cylinder.").between(3, 360);
     declare_self_intersections(d);
 }
 

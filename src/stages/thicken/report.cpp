@@ -9,7 +9,7 @@ namespace facetmill::thicken_stage {
 
 namespace {
 
-/// The member of the surface's result, if the part is a surface.
+/// Reads a member of the surface's result, if the part is a surface.
 template <class T>
 auto of_surface(T ThickenResult::*member) {
     return [member](const ThickenedPart& part) {
@@ -23,38 +23,36 @@ std::optional<ThickenResult::Wall> wall_of(const ThickenedPart& part) {
 }
 
 void declare_wall(DeclareFields<ThickenResult::Wall>& d) {
-    d.field("min", &ThickenResult::Wall::thinnest, "The least.").unit("scene units");
-    d.field("mean", &ThickenResult::Wall::mean, "The mean.").unit("scene units");
+    d.field("min", &ThickenResult::Wall::thinnest, "The smallest thickness.").unit("scene units");
+    d.field("mean", &ThickenResult::Wall::mean, "The mean thickness.").unit("scene units");
 }
 
 void declare_part(DeclareFields<ThickenedPart>& d) {
     constexpr const char* surface = "a surface got a thickness";
     d.field(
         "part", [](const ThickenedPart& p) { return std::visit([](const auto& x) { return x.part; }, p); },
-        "Its name.");
-    d.field("wall_faces", of_surface(&ThickenResult::wall_faces), "Faces of walls along boundary edges.")
+        "The name of the part.");
+    d.field("wall_faces", of_surface(&ThickenResult::wall_faces), "Faces of the walls along boundary edges.")
         .only_when(surface);
-    d.field("limited_vertices", of_surface(&ThickenResult::limited), "Vertices limited by miter_limit.")
+    d.field("limited_vertices", of_surface(&ThickenResult::limited), "Vertices that miter_limit limited.")
         .only_when(surface);
     d.field("unmoved_vertices", of_surface(&ThickenResult::still),
-            "Vertices without a normal, which did not move.")
+            "Vertices that did not move because they have no normal.")
         .only_when(surface);
     d.field("unbalanced_edges", of_surface(&ThickenResult::unbalanced),
-            "Edges at which the solid is not closed because the surface is not oriented there.")
+            "Edges where the solid stays open because the surface is not oriented.")
         .only_when(surface);
     d.field("filled_components", of_surface(&ThickenResult::filled),
-            "Closed components without enough room for a cavity, which became solid.")
+            "Closed components that became solid because they have no room for a cavity.")
         .only_when(surface);
     d.field("turned_faces", of_surface(&ThickenResult::turned),
-            "Faces of the front and the back that were inverted by the offset: the wall folds there.")
+            "Faces of the front and the back that the offset inverted. The wall folds there.")
         .only_when(surface);
     d.field("resolved", of_surface(&ThickenResult::resolved),
-            "Whether walls that fold or intersect were made again without that, as self_intersections: "
-            "resolve asks "
-            "for; turned_faces is 0 then.")
+            "Whether self_intersections: resolve rebuilt the solid. If true, turned_faces is 0.")
         .only_when(surface);
     d.field("buried_components", of_surface(&ThickenResult::buried),
-            "Closed components of the solid within the walls of others.")
+            "Closed components of the solid inside the walls of others.")
         .only_when(surface);
     d.object("wall_thickness", wall_of, "The wall thickness from the front to the back.", declare_wall)
         .only_when("a surface got a thickness and is not filled");
@@ -62,14 +60,14 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
         const auto* s = std::get_if<ThickenedSurface>(&p);
         return s && s->looked && s->has_faces ? std::optional(s->result.self_intersections) : std::nullopt;
     };
-    d.field("self_intersections", pairs, "Pairs of faces that intersect.")
+    d.field("self_intersections", pairs, "Pairs of faces that intersect. Pairs that only touch do not count.")
         .only_when("self_intersections is not ignore and the part has faces")
-        .null_when("the part is smaller than its thickness, so they were not searched for");
+        .null_when("the search was skipped because the part is smaller than its thickness");
     constexpr const char* edges = "edges became cylinders";
     d.field("cylinders", where_it_is(&ThickenedEdges::cylinders), "Edges that became cylinders.")
         .only_when(edges);
     d.field("without_length", where_it_is(&ThickenedEdges::without_length),
-            "Edges of length 0, which were left out.")
+            "Edges of length 0, which get no cylinder.")
         .only_when(edges);
 }
 
@@ -95,7 +93,7 @@ std::string line_of(const ThickenedSurface& surface) {
 } // namespace
 
 void declare_thicken_report(DeclareFields<ThickenReport>& d) {
-    d.list("parts", &ThickenReport::parts, "Each part that got a thickness.", declare_part);
+    d.list("parts", &ThickenReport::parts, "Every thickened part.", declare_part);
     d.tell([](const ThickenReport& report) {
         std::vector<std::string> lines;
         for (const auto& part : report.parts) {
@@ -113,20 +111,18 @@ void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor&
     const char* unit = unit_text(wall.unit);
     const bool resolves = o.self_intersections == ThickenOptions::SelfIntersections::resolve;
     const std::string way_out =
-        resolves ? "" : "thicken: {self_intersections: resolve} makes the solid again without that; or ";
+        resolves ? "" : "thicken: {self_intersections: resolve} rebuilds the solid without them; or ";
     if (r.unbalanced > 0)
         context.warn("W-THICKEN-OPEN",
-                     fmt::format("thicken: part '{}' is not closed at {}: its surface is not oriented "
-                                 "there",
+                     fmt::format("thicken: part '{}' is open at {} because its surface is not oriented there",
                                  part.name, counted(r.unbalanced, "edge")),
-                     "use orient first; a Moebius strip has no inside");
+                     "use orient first; a Moebius strip cannot be oriented");
     if (r.wall && r.wall->thinnest < 0.5 * thickness)
         context.warn(
             "W-THICKEN-THIN",
-            fmt::format("thicken: the wall of part '{}' is only {:.6g} {} thick where it should be {:.6g} {}",
+            fmt::format("thicken: the wall of part '{}' is only {:.6g} {} thick instead of {:.6g} {}",
                         part.name, r.wall->thinnest, unit, thickness, unit),
-            "the surface curves or folds within the thickness there; try the other side or a smaller "
-            "thickness");
+            "the surface curves or folds within the thickness; try the other side or a smaller thickness");
     if (r.self_intersections.value_or(0) > 0)
         context.warn("W-THICKEN",
                      fmt::format("thicken: {} pairs of faces of part '{}' intersect", *r.self_intersections,
@@ -135,22 +131,24 @@ void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor&
     if (r.turned > 0)
         context.warn(
             "W-THICKEN",
-            fmt::format("thicken: {} faces of the walls of part '{}' are inverted, the first at "
-                        "{}: there is no room for {:.6g} {}",
+            fmt::format("thicken: {} faces of the walls of part '{}' are inverted, the first at {}: there is "
+                        "no room for {:.6g} {}",
                         r.turned, part.name, readable(*r.first_turned), thickness, unit),
             way_out +
                 "use a smaller thickness, the other side, or larger and smoother faces (simplify, relax)");
     if (r.buried > 0)
-        context.warn("W-THICKEN",
-                     fmt::format("thicken: {} closed components of part '{}' lie within the walls of others",
-                                 r.buried, part.name),
-                     way_out + "use a smaller thickness, or thicken the components one by one (separate)");
+        context.warn(
+            "W-THICKEN",
+            fmt::format("thicken: {} closed components of part '{}' lie inside the walls of others", r.buried,
+                        part.name),
+            way_out +
+                "use a smaller thickness, or separate the components and thicken each of them (separate)");
     if (o.looks() && !r.self_intersections)
         context.warn("W-THICKEN",
-                     fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g} {}, so it was not "
-                                 "searched for self-intersections",
+                     fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g} {}, so "
+                                 "self-intersections were not searched for",
                                  part.name, thickness, unit),
-                     "is the thickness in the right unit?");
+                     "check the unit of the thickness");
 }
 
 } // namespace facetmill::thicken_stage

@@ -13,7 +13,7 @@ struct ThickenedSurface {
     ThickenResult result;
     bool has_faces = true;
     bool looked = false;       ///< checked for self-intersections
-    Unit unit = Unit::unknown; ///< of the scene
+    Unit unit = Unit::unknown; ///< the scene's unit
 };
 /// The result for edges that became cylinders.
 struct ThickenedEdges {

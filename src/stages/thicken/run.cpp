@@ -33,7 +33,7 @@ class SurfaceThickener {
   private:
     struct Known {
         ThickenResult result;
-        Vec3 origin; ///< in world space, of the part that it was made from
+        Vec3 origin; ///< the source part's origin in world space
     };
 
     ThickenResult result_for(const Part& part, double thickness) {
@@ -55,7 +55,7 @@ class SurfaceThickener {
     const ThickenOptions& o_;
     DistinctParts shapes_;
     std::map<std::pair<std::size_t, std::uint64_t>, Known>
-        known_; ///< the key: first equal part and thickness
+        known_; ///< the key is the first equal part and the thickness
 };
 
 ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
@@ -82,7 +82,7 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
         if (!inverse(part.transform))
             throw Error(ErrorKind::stage, "E-THICKEN",
                         fmt::format("thicken: part '{}' is flattened by its node", part.name),
-                        "transform: {bake: true} makes it a flat mesh");
+                        "use transform: {bake: true} to make it a flat mesh");
         if (!(thickness > 0))
             throw Error(ErrorKind::stage, "E-THICKEN", "thicken: the thickness is 0 in this scene",
                         "give a length in scene units");

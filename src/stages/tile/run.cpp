@@ -75,7 +75,7 @@ void declare_report(DeclareFields<TileReport>& d) {
             "Contours that were not capped because they are open.");
 }
 
-/// "body.x0.y-1"
+/// The name of a tile, such as "body.x0.y-1".
 std::string name_of(const Part& part, const Tile& tile, const std::vector<TileAxis>& axes) {
     std::string name = part.name;
     for (const TileAxis& a : axes) name += fmt::format(".{}{}", "xyz"[a.axis], tile.cell[a.axis]);
@@ -137,8 +137,8 @@ class TileRun {
 };
 
 /// Replaces each selected part by its tiles, named after part and cell ("body.x0.y-1"). settings: shared by
-/// all parts; transform, memory and the caps' primitive are set per part. Warns of open contours
-/// (W-CAP-OPEN) and of parts without faces (W-TILE-NOTHING).
+/// all parts, except transform, memory and the caps' primitive. Warns about open contours (W-CAP-OPEN) and
+/// parts without faces (W-TILE-NOTHING).
 Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& cap_material, Context& context,
                  TileReport& report) {
     return TileRun(settings, context).run(std::move(scene), cap_material, report);

@@ -45,19 +45,18 @@ Transform from_numbers(const std::vector<double>& m) {
 } // namespace
 
 void declare_transform(Declare<TransformOptions>& d) {
-    d.choice<Unit>(
-         "unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
-         "The unit of the numbers from here on; they are converted so that physical sizes stay the same.")
+    d.choice<Unit>("unit", &TransformOptions::unit, unit_choices("unknown", "unchanged"),
+                   "Converts the scene to this unit. Physical sizes stay the same.")
         .also_called(property_named("unit")->also_called);
     d.choice<UpAxis>(
          "up", &TransformOptions::up,
-         {{"unknown", UpAxis::unknown, "as it is"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
-         "The axis that points up from here on; the scene is rotated so that up stays up, unless it had no "
-         "up "
-         "axis (W-UP).")
+         {{"unknown", UpAxis::unknown, "unchanged"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
+         "Rotates the scene so that this axis points up. If the scene has no up axis, nothing is rotated "
+         "(W-UP).")
         .also_called(property_named("up")->also_called);
-    d.option("scale", &TransformOptions::scale, "One factor, or one for each axis; negative factors mirror.");
-    d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise when looking against the axis.",
+    d.option("scale", &TransformOptions::scale,
+             "One factor, or one factor per axis. Negative factors mirror.");
+    d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise when you look against the axis.",
             [](Declare<TransformRotation>& r) {
                 r.option("angle", &TransformRotation::angle, "The angle of rotation.").primary();
                 r.option("axis", &TransformRotation::axis, "The axis of rotation.");
@@ -66,24 +65,23 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.choice<Pivot>("pivot", &TransformOptions::pivot,
                     {{"origin", Pivot::origin, "the world's origin"},
                      {"centre", Pivot::centre, "the centre of the parts' bounding box"}},
-                    "The point that scale, rotate and fit leave in place.");
+                    "The point that scale, rotate and fit do not move.");
     d.option("matrix", &TransformOptions::matrix,
-             "Twelve or sixteen numbers, row by row, applied to columns (x, y, z, 1).");
-    d.option(
-         "fit", &TransformOptions::fit,
-         "Then scales alike along all axes, so that the parts' bounding box just fits into a cube with "
-         "this side (120mm: its longest side gets this length), or into a box with three. A percentage is "
-         "of the side that it replaces, so that 50% halves the parts.")
+             "Twelve or sixteen numbers, row by row. The matrix multiplies column vectors (x, y, z, 1).");
+    d.option("fit", &TransformOptions::fit,
+             "Scales the parts uniformly until their bounding box fits into a cube with this side. For "
+             "example, fit: 120mm makes the longest side 120 mm. Three lengths give a box instead of a cube. "
+             "A percentage refers to the current side, so 50% halves the parts.")
         .also_called("size resize fit_to max_size longest normalize normalise height", "(fit: 120mm)");
     d.option("translate", &TransformOptions::translate, "Three lengths.")
         .also_called("move offset translation position");
     d.option("centre", &TransformOptions::centre,
-             "Then moves the centre of the parts' bounding box to the origin.");
+             "Moves the centre of the parts' bounding box to the origin.");
     d.option("ground", &TransformOptions::ground,
-             "Then places the parts on the ground: the lowest point along the up axis is at 0.");
+             "Moves the parts so that their lowest point along the up axis is at 0.");
     d.option("bake", &TransformOptions::bake,
-             "Applies the transform to the vertices and removes it from the parts' nodes; animated parts are "
-             "left out.");
+             "Applies the transform to the vertices and resets the nodes of the parts. Animated parts are "
+             "skipped.");
 }
 
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {
@@ -91,28 +89,29 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
         problems.add(mark_at(given, name), "E-TRANSFORM", "transform: " + std::move(message));
     };
     if (!o.translate.empty() && o.translate.size() != 3)
-        refuse("translate", fmt::format("translate takes three lengths, found {}", o.translate.size()));
+        refuse("translate", fmt::format("translate needs three lengths, found {}", o.translate.size()));
     if (!o.scale.empty() && o.scale.size() != 1 && o.scale.size() != 3)
-        refuse("scale", fmt::format("scale takes one factor or three, found {}", o.scale.size()));
+        refuse("scale", fmt::format("scale needs one factor or three, found {}", o.scale.size()));
     for (const double factor : o.scale)
         if (!(std::abs(factor) > 0) || !std::isfinite(factor))
             refuse("scale", "a factor of 0 would flatten the parts");
     if (!o.matrix.empty() && o.matrix.size() != 12 && o.matrix.size() != 16)
-        refuse("matrix", fmt::format("matrix takes 12 or 16 numbers, found {}", o.matrix.size()));
+        refuse("matrix", fmt::format("matrix needs 12 or 16 numbers, found {}", o.matrix.size()));
     else if (!o.matrix.empty() && !(std::abs(from_numbers(o.matrix).determinant()) > 0))
         refuse("matrix", "the matrix would flatten the parts");
     if (o.matrix.size() == 16 &&
         (o.matrix[12] != 0 || o.matrix[13] != 0 || o.matrix[14] != 0 || o.matrix[15] != 1))
-        refuse("matrix", "the last row of a matrix is 0, 0, 0, 1");
+        refuse("matrix", "the last row of the matrix must be 0, 0, 0, 1");
     if (!o.fit.empty() && o.fit.size() != 1 && o.fit.size() != 3)
-        refuse("fit", fmt::format("fit takes one length or three, found {}", o.fit.size()));
+        refuse("fit", fmt::format("fit needs one length or three, found {}", o.fit.size()));
     const Value* fit = given.find("fit");
     for (const Length& side : o.fit)
         if (!(side.amount > 0) && !(fit && fit->deferred))
-            refuse("fit", fmt::format("the lengths of fit are above 0, found {}", side.text));
+            refuse("fit", fmt::format("the lengths of fit must be above 0, found {}", side.text));
     if (given.find("pivot") && o.scale.empty() && !o.rotate && o.fit.empty())
-        add_refusal(Refusal{"pivot", "'pivot' goes with scale, rotate or fit"}, "transform", given, problems);
-    if (o.rotate && !(length(o.rotate->axis) > 0)) refuse("rotate", "the axis of a rotation has no length");
+        add_refusal(Refusal{"pivot", "'pivot' needs scale, rotate or fit"}, "transform", given, problems);
+    if (o.rotate && !(length(o.rotate->axis) > 0))
+        refuse("rotate", "the axis of the rotation has zero length");
 }
 
 Transform spin_of(const TransformOptions& o) {

@@ -24,12 +24,12 @@ struct TransformOptions {
 };
 
 void declare_transform(Declare<TransformOptions>& d);
-/// Checks beyond the declaration: counts of numbers, and singular matrices.
+/// Checks counts of numbers and singular matrices, which the declaration cannot express.
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems);
 
-/// scale, then rotate, about the origin.
+/// The transform that scales, then rotates, about the origin.
 [[nodiscard]] Transform spin_of(const TransformOptions& o);
-/// The matrix option; the identity by default.
+/// The `matrix` option; the identity by default.
 [[nodiscard]] Transform matrix_of(const TransformOptions& o);
 
 } // namespace facetmill::transform_stage

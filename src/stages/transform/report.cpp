@@ -11,30 +11,33 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
         return m;
     };
     d.field("matrix", rows,
-            "All moves after the conversion of unit and up axis: the three rows of a matrix.");
-    d.field("unit_factor", &TransformReport::unit_factor, "The factor applied to lengths for the unit.");
-    d.field("fit_factor", &TransformReport::fit_factor, "The factor by which fit scaled.")
-        .only_when("fit is given and there are parts");
-    d.field("unit", &TransformReport::unit, "The unit of the scene now; unknown: none.");
-    d.field("up", &TransformReport::up, "The axis that points up now; unknown: none.");
+            "The total movement after the conversion of unit and up axis: the first three rows of a 4 x 4 "
+            "matrix.");
+    d.field("unit_factor", &TransformReport::unit_factor,
+            "The factor that the change of unit applied to lengths.");
+    d.field("fit_factor", &TransformReport::fit_factor, "The scale factor of fit.")
+        .only_when("fit is given and the scene has parts");
+    d.field("unit", &TransformReport::unit, "The unit of the scene after this stage, or unknown.");
+    d.field("up", &TransformReport::up, "The up axis after this stage, or unknown.");
 }
 
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context) {
     if (converted.unit_guessed)
         context.warn(
             "W-UNITS",
-            fmt::format("transform: the scene had no unit; its numbers are taken as {}", to_string(o.unit)),
-            "give the unit when the file is loaded (load: {unit: mm})");
+            fmt::format("transform: the scene has no unit, so its numbers are read as {}", to_string(o.unit)),
+            "give the unit when you load the file (load: {unit: mm})");
     if (converted.up_guessed)
-        context.warn("W-UP",
-                     fmt::format("transform: the scene had no up axis; nothing is rotated, and {} is up now",
-                                 to_string(o.up)),
-                     "give the up axis when the file is loaded (load: {up: z})");
+        context.warn(
+            "W-UP",
+            fmt::format("transform: the scene has no up axis, so nothing was rotated; the up axis is now {}",
+                        to_string(o.up)),
+            "give the up axis when you load the file (load: {up: z})");
 }
 
 void warn_of_animation(const std::string& part, Context& context) {
     context.warn("W-TRANSFORM", fmt::format("transform: part '{}' is animated and is not baked", part),
-                 "its node has been moved; merge makes it a part without animation");
+                 "its node was moved instead; merge turns it into a part without animation");
 }
 
 } // namespace facetmill::transform_stage

@@ -10,7 +10,7 @@ struct TransformReport {
     Transform all; ///< the combined transform of the parts
     double unit_factor = 1;
     std::optional<double> fit_factor;
-    std::string unit, up; ///< of the resulting scene
+    std::string unit, up; ///< the unit and up axis of the resulting scene
 };
 void declare_transform_report(DeclareFields<TransformReport>& d);
 

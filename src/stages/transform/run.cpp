@@ -25,7 +25,7 @@ Transform uniform(double factor) {
 
 class Mover {
   public:
-    /// box: of the only part after a transform, for a scene without its mesh.
+    /// The box of the only part after a transform, for a scene whose mesh is not in memory.
     using BoxOf = std::function<Box(const Transform&)>;
     Mover(Scene& scene, const TransformOptions& o, Context& context, BoxOf box = {})
         : scene_(scene), o_(o), context_(context), box_(std::move(box)) {}
@@ -60,7 +60,7 @@ class Mover {
         return length;
     }
 
-    /// The factor that scales the box to fit; sides without extent always fit.
+    /// The factor that scales the box to fit. Sides of length 0 always fit.
     std::optional<double> fit_factor() const {
         if (o_.fit.empty() || box().empty()) return {};
         const Vec3 extent = box().max - box().min;
@@ -75,8 +75,8 @@ class Mover {
         }
         if (!(factor > 0) || !std::isfinite(factor))
             throw Error(ErrorKind::stage, "E-TRANSFORM",
-                        "transform: fit has nothing to scale, the parts' bounding box has no extent",
-                        "info prints the bounds");
+                        "transform: fit cannot scale the parts because their bounding box has no extent",
+                        "print the bounds with facetmill info");
         return factor;
     }
 
@@ -87,7 +87,7 @@ class Mover {
         return by;
     }
 
-    /// The translation that rests the parts on the ground.
+    /// The translation that puts the parts on the ground.
     Vec3 drop() const {
         Vec3 by;
         const std::size_t up = scene_.up == UpAxis::y ? 1 : 2;
@@ -112,7 +112,8 @@ class Mover {
         }
     }
 
-    /// Animated parts keep their node, because the animation would move baked points about another origin.
+    /// Animated parts keep their node, because the animation would move baked points around the wrong
+    /// origin.
     void bake() {
         const auto animated = io::animated_parts(scene_);
         context_.for_each_part(scene_, [&](Part& part) {
@@ -152,7 +153,7 @@ struct TransformStage : StageOf<run> {
         context.report(*info->result, &report);
     }
     std::optional<std::string> why_not_on_cells() const override {
-        if (o.bake) return "bake is for nodes, which cells have none of";
+        if (o.bake) return "bake applies node transforms, and cells have no nodes";
         return {};
     }
 };

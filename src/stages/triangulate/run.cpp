@@ -33,7 +33,7 @@ struct TriangulatedPart {
     std::string part;
     FaceKinds kinds;
     std::size_t cut = 0, fans = 0, filled = 0;
-    std::optional<std::size_t> quads = {}, triangles = {}; ///< of pairing
+    std::optional<std::size_t> quads = {}, triangles = {}; ///< counts of pairing
 };
 
 struct TriangulateReport {

@@ -35,7 +35,7 @@ report::EvidenceEntry entry_of(const Property& property, const Evidence& e) {
     return entry;
 }
 
-/// The keys of a part's locations, unique among all parts.
+/// Gives the locations of a part keys that are unique among all parts.
 class PartKeys {
   public:
     explicit PartKeys(const Part& part) {

@@ -1,5 +1,5 @@
 #pragma once
-// Evidence against an assertion, as checks carry it.
+// The evidence in a check against an assertion.
 
 #include "geometry/inspect/evidence.hpp"
 #include "report/record.hpp"
@@ -10,22 +10,22 @@ namespace facetmill::validate_stage {
 /// The maximum number of evidence entries of a check.
 constexpr std::size_t max_evidence = 10;
 
-/// At most the first ten locations in world space: [{part, at, face}], with {with} for pairs of faces and
-/// {attribute} for attributes. For closedness and the boundary, an entry for each boundary chain: [{part,
+/// Lists at most the first ten locations, in world space: [{part, at, face}]. Pairs of faces add {with}, and
+/// attributes add {attribute}. Closedness and the boundary have an entry for each boundary chain: [{part,
 /// at, face, loop, edges, length}]. Loops are numbered from 0 by their lowest vertex, and `at` is the middle
-/// of their first edge. Numbers without locations give the parts' values, the most influential first:
-/// [{part, amount}]. A box adds {at}, its corner that is out of bounds; parts and materials give their
-/// names.
+/// of their first edge. Numbers without locations list the values of the parts, the most influential part
+/// first: [{part, amount}]. A box adds {at}, the corner that is out of bounds. Parts and materials list
+/// their names.
 [[nodiscard]] report::CheckEvidence evidence_against(const Scene& scene, const Assertion& assertion);
 
-/// The first locations in the same form, limited to locations with these keys (ascending).
+/// The same evidence, limited to locations with these keys (ascending).
 [[nodiscard]] report::CheckEvidence evidence_among(const Scene& scene, const Assertion& assertion,
                                                    const std::vector<std::uint64_t>& keys);
 
-/// The number of locations, if it is not the value itself; none if the assertion has no locations.
+/// The number of locations. None if the assertion has no locations, or if its value is this number.
 [[nodiscard]] std::optional<std::size_t> count_locations(const Scene& scene, const Assertion& assertion);
 
-/// All locations on a part (up to 2^22), in the part's own space; for properties of faces, the faces beyond
+/// All locations on a part (up to 2^22), in the part's own space; properties of faces list the faces beyond
 /// the bound.
 [[nodiscard]] std::vector<Location> locations_against(const Part& part, const Assertion& assertion);
 

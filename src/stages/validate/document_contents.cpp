@@ -27,7 +27,7 @@ std::string text_at(const Json& j, const char* name) {
     return j.is_object() && j.contains(name) && j[name].is_string() ? j[name].get<std::string>() : "";
 }
 
-/// The list of that name; empty if missing.
+/// The list of this name, or an empty list.
 Json list_at(const Json& j, const char* name) {
     return j.is_object() && j.contains(name) && j[name].is_array() ? j[name] : Json::array();
 }
@@ -56,7 +56,7 @@ void add_images(const Document& d, std::vector<DocumentImage>& images) {
         Span bytes;
         if (inside) bytes = bytes_in_buffer(d, json, list[i]);
         if (!inside && file != d.files.end() && listed.insert(uri).second) bytes = file->second;
-        const bool told = !uri.empty() && uri.size() < 200; // not a data: URI
+        const bool told = !uri.empty() && uri.size() < 200; // excludes data: URIs
         images.push_back(image_of(!name.empty() ? name : told ? uri : fmt::format("image {}", i), bytes));
     }
     for (const auto& [uri, bytes] : d.files)

@@ -14,7 +14,7 @@ struct DocumentImage {
     std::size_t width = 0, height = 0;
     std::size_t pixels() const { return width * height; }
 };
-/// All images in the documents' lists, and files outside these lists.
+/// All images in the documents' lists, and image files outside these lists.
 [[nodiscard]] std::vector<DocumentImage> images_of(const Scene& scene);
 
 /// Part of a document's size: its JSON, a buffer, or a separate image.

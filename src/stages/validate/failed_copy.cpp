@@ -13,7 +13,7 @@ namespace facetmill::validate_stage {
 
 namespace {
 
-/// Gives the flagged faces a copy of their primitive with the material.
+/// Moves the flagged faces to a copy of their primitive that has the material.
 void paint(Mesh& mesh, const std::vector<std::uint32_t>& flags, Index material) {
     std::vector<std::uint32_t> primitives(mesh.face_count(), 0);
     for (Index f = 0; f < primitives.size(); ++f) primitives[f] = mesh.primitive_of(f);
@@ -42,7 +42,7 @@ bool is_corner(const Mesh& mesh, const Location& location) {
 
 void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags) {
     const Mesh& mesh = part.mesh;
-    std::set<std::array<double, 3>> points; // of locations at vertices
+    std::set<std::array<double, 3>> points; // locations at vertices
     for (const Location& p : locations_against(part, assertion)) {
         if (p.face == none || is_corner(mesh, p)) points.insert({p.at.x, p.at.y, p.at.z});
         if (p.face != none) flags[p.face] = 1;

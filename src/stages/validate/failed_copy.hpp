@@ -16,7 +16,7 @@ void flag_faces_against(const Part& part, const Assertion& assertion, std::vecto
 /// The scene with the flagged faces in a red material `failed`, and with 1 in the face attribute `failed`.
 [[nodiscard]] Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags);
 
-/// Writes the copy immediately. Throws output.
+/// Writes the copy immediately. Throws an output error.
 void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,
                        const std::filesystem::path& path);
 

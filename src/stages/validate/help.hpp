@@ -7,33 +7,49 @@ inline constexpr const char* about =
     R"(Checks the mesh: each given property is an assertion, and a failed assertion fails the run.)";
 
 inline constexpr const char* details =
-    R"(A property is given with a bound: a value (euler: 2), true or false (closed: true), or a range
-(faces: {max: 5000}, min_angle: {min: 5deg}). `for` adds the assertions that a purpose needs, except
-those that are given. Without properties and purpose, the mesh must be closed, edge-manifold and
-vertex-manifold, oriented, free of degenerate faces and not empty. All assertions are checked, and
-all failures are listed with evidence: the first (or worst) faces and points at fault (for measures,
-only faces beyond the bound) and how many there are. Angles are in degrees. The mesh passes on
-unchanged.
+    R"(You give each property a bound: a value (euler: 2), true or false (closed: true), or a range (faces:
+{max: 5000}, min_angle: {min: 5deg}).
+`for` adds the assertions for a purpose, and your own values take precedence.
+Without any property or purpose, the mesh must be closed, edge-manifold, vertex-manifold, oriented,
+free of degenerate faces, and not empty.
 
-To introduce a check on existing assets, `baseline: known.json` with update_baseline (or run
---update-baseline) writes what fails today. From then on, without update_baseline, those failures
-are waived (known), and new ones fail. A failure is identified by its check, its part and its
-locations: edges, faces, pairs of faces and vertices by the exact coordinates of their vertices in
-the part's local space, whatever their numbers and order, and components by their lowest vertex (x
-first, then y, z). So a new fault in place of a fixed one fails, and so do faults on faces that
-moved. A failure without locations (counts, except the names of a limit) is waived as long as the
-value has not moved farther from the bound. The run reports known failures that no longer occur. A
-baseline lists up to 50000 locations per check. Beyond that it stores a sample and one combined key,
-by which it still notices when as many locations remain but some of them are different.
+All assertions are checked.
+For each failure, the stage reports the number of faulty elements and the positions of the first or
+worst.
+Failures of a measure list only faces beyond the bound.
+Angles are in degrees.
+The mesh passes on unchanged.
 
-`self_intersections` and `touching` are separate counts. Faces intersect when they meet inside one
-of them or pass through each other at their edges; where they meet only at edges and corners, they
-touch, for example after clean has separated an edge with four faces. Slicers accept that, and so
-does `for: printing`; `touching: 0` forbids it.
+A baseline lets you introduce checks on existing assets.
+`baseline: known.json` with update_baseline (or run --update-baseline) writes the current failures
+to the file.
+Later runs without update_baseline waive these known failures, and new failures fail the run.
 
-`euler: 2` is a common test for a closed surface, but it is valid only for a single component of
-genus 0: V - E + F is 2 - 2g for a closed component of genus g, and components add up. Use `closed:
-true` to test closedness in every case.
+A failure is identified by its check, its part and its locations.
+Edges, faces, pairs of faces and vertices are identified by the exact coordinates of their vertices
+in the part's local space.
+Their numbers and order do not matter.
+Components are identified by their lowest vertex (smallest x, then y, then z).
+A new fault therefore fails even if an old one was fixed, and so does a fault on a face that moved.
+
+A failure without locations, such as a count, is waived unless its value moves farther from the
+bound.
+Limits on names list the names as locations.
+The report lists known failures that no longer occur.
+A baseline stores up to 50000 locations per check.
+Beyond that, it stores a sample and one combined key, which detects changed locations even if their
+number is the same.
+
+`self_intersections` and `touching` are separate counts.
+Faces intersect if they meet in the interior of a face, or pass through each other at their edges.
+Faces touch if they meet only at edges and corners.
+For example, clean leaves touching faces when it separates an edge with four faces.
+Slicers accept touching faces, and so does `for: printing`.
+Use `touching: 0` to forbid them.
+
+`euler: 2` is a common test for closed surfaces, but it is only valid for one component of genus 0.
+A closed component of genus g has V - E + F = 2 - 2g, and components add up.
+Use `closed: true` to test for closed surfaces in every case.
 
 Source: P. Bourke, 'Eulers number and closed surfaces' (1997).)";
 

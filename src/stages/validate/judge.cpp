@@ -16,7 +16,7 @@ namespace facetmill::validate_stage {
 
 namespace {
 
-/// Lends the parts with these indices to body as a separate scene, without a copy.
+/// Calls body with a scene of the parts with these indices. Parts are moved in and out, not copied.
 template <class Body>
 void with_parts(Scene& scene, std::span<const std::size_t> indices, Body&& body) {
     Scene chosen{{}, scene.materials, scene.unit, scene.up, {}};
@@ -25,7 +25,7 @@ void with_parts(Scene& scene, std::span<const std::size_t> indices, Body&& body)
     for (std::size_t k = 0; k < indices.size(); ++k) scene.parts[indices[k]] = std::move(chosen.parts[k]);
 }
 
-/// The approximate relative time to judge each part.
+/// The approximate time to judge each part, relative to the others.
 std::vector<double> lengths_of(const Scene& scene, const std::vector<std::size_t>& parts) {
     std::vector<double> lengths;
     lengths.reserve(parts.size());
@@ -78,11 +78,11 @@ class Judge {
   private:
     /// The subject of a check, and the numbers of its parts and faces in the scene.
     struct Subject {
-        std::string name;            ///< as shown: a component has a number
+        std::string name;            ///< the displayed name; components are numbered
         std::string part, component; ///< the stable identity, independent of numbers
         std::span<const std::size_t> parts;
-        const std::vector<Index>* faces; ///< of a component of the only part; null: all faces
-        bool shared = false; ///< it is an outer component or a cavity of a solid with several components
+        const std::vector<Index>* faces; ///< the faces of a component of the only part; null: all faces
+        bool shared = false; ///< true for an outer component or a cavity of a solid with several components
     };
 
     Properties properties_of(const Scene& scene, const Subject& subject) const {
@@ -202,7 +202,7 @@ class Judge {
             context_.warn(
                 "W-BASELINE",
                 fmt::format("none of the failures in '{}' occurs here, but others do", s_.baseline->string()),
-                "is it the baseline of another mesh, or of other parts?");
+                "check that the baseline belongs to this mesh and these parts");
     }
 
     JudgeSettings s_;
@@ -212,7 +212,7 @@ class Judge {
     std::size_t waived_ = 0, waived_locations_ = 0;
     bool any_ = false;                              ///< a failure was not waived
     bool any_known_ = false;                        ///< a failure was already known
-    std::vector<std::vector<std::uint32_t>> flags_; ///< of the parts' faces
+    std::vector<std::vector<std::uint32_t>> flags_; ///< flags of the parts' faces
 };
 
 } // namespace

@@ -11,19 +11,20 @@ namespace facetmill::validate_stage {
 
 /// The subjects of the assertions.
 enum class Per {
-    scene,     ///< sums over the parts, and truths of all parts
+    scene,     ///< numbers are summed over the parts; a property must hold for all parts
     part,      ///< each part separately
     component, ///< each component of each part, connected through edges
 };
 
 struct JudgeSettings {
-    Assertions assertions; ///< lengths not yet resolved
+    Assertions assertions; ///< lengths are not resolved yet
     SceneLimits limits;
-    Severity severity = Severity::error; ///< of failed checks
+    Severity severity = Severity::error; ///< the severity of failed checks
     Per per = Per::scene;
     std::optional<std::filesystem::path> baseline = {}; ///< known failures, to read or to write
-    bool update_baseline = false;                       ///< write it
-    std::optional<std::filesystem::path> mark = {};     ///< a copy with failing faces in red, if any fail
+    bool update_baseline = false;
+    std::optional<std::filesystem::path> mark =
+        {}; ///< writes a copy with the failing faces in red, if any fail
 };
 
 /// The results of the baseline; none without a baseline.
@@ -35,8 +36,8 @@ struct ValidateReport {
 
 /// Adds a check to the context for every assertion and subject. Failed checks have evidence: the first
 /// locations, with the part's face numbers, and the total. Failures of the baseline are waived while they
-/// get no worse. The scene is unchanged afterwards. Throws usage (E-UNIT) for lengths, missing and malformed
-/// for the baseline, output for the copy.
+/// get no worse. The scene is unchanged afterwards. Throws a usage error (E-UNIT) for lengths, the errors of
+/// KnownFailures::read, and an output error for the copy.
 [[nodiscard]] ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 
 } // namespace facetmill::validate_stage

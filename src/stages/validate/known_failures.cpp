@@ -23,7 +23,7 @@ std::optional<double> number_of(const report::Found& found) {
     return number ? std::optional(*number) : std::nullopt;
 }
 
-/// Whether the new value is no worse. For values that are not numbers, only locations decide, if any.
+/// Whether the new value is no worse. If the values are not numbers, only locations decide.
 bool is_no_worse(const Failure& before, const Failure& now) {
     if (before.found == now.found) return true;
     const auto was = number_of(before.found), is = number_of(now.found);
@@ -38,7 +38,7 @@ std::uint64_t hash_of(std::span<const std::uint64_t> keys) {
     return h;
 }
 
-/// The number of ascending keys to write: all that equal a key among the lowest distinct ones.
+/// The number of leading keys to write: the lowest distinct keys, with repeats.
 std::size_t listed(const Keys& keys) {
     std::size_t different = 0;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -113,7 +113,7 @@ bool read_failure(const Json& json, Failure& failure) {
 
 /// Adds the locations of `now` that are new since `before`.
 void add_fresh(const Failure& before, const Failure& now, KnownFailures::Verdict& verdict) {
-    auto end = now.keys.end(); // of the keys that the file would list
+    auto end = now.keys.end(); // the end of the keys that the file would list
     if (before.more > 0)
         end = before.keys.empty() ? now.keys.begin()
                                   : std::upper_bound(now.keys.begin(), now.keys.end(), before.keys.back());
@@ -142,7 +142,7 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
     if (!json.contains("facetmill_baseline") || !json["facetmill_baseline"].is_number_integer())
         throw refuse();
     if (json["facetmill_baseline"].get<std::int64_t>() != form)
-        throw refuse("is a baseline of a version that this facetmill does not read");
+        throw refuse("is a baseline of a version that this facetmill cannot read");
     KnownFailures known;
     for (const auto& f : json["failures"]) {
         if (!read_failure(f, known.failures_.emplace_back())) throw refuse();

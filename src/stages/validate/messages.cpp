@@ -4,7 +4,7 @@ namespace facetmill {
 
 const RegisterMessages validate_messages{
     {"E-BASELINE",
-     "You gave a baseline of `validate` but no stage uses one, or the file is not a baseline.",
+     "You gave a baseline of `validate` but no stage uses it, or the file is not a baseline.",
      "Write a new baseline with `--update-baseline`.",
      {ErrorKind::usage, ErrorKind::malformed}},
     {"W-BASELINE", "The mesh has none of the failures in the baseline, but it has others.",

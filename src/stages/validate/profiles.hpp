@@ -1,5 +1,5 @@
 #pragma once
-// Named sets of assertions by the purpose of a mesh.
+// Named sets of assertions for the purposes of a mesh.
 
 #include "stage/assertions.hpp"
 #include "stages/validate/scene_limits.hpp"
@@ -12,7 +12,7 @@ template <class S>
 void declare_profile(Declare<S>& d, Profile S::*member) {
     d.template choice<Profile>(
         "for", member,
-        {{"none", Profile::none, "only what is given"},
+        {{"none", Profile::none, "only the given assertions"},
          {"solid", Profile::solid,
           "closed, manifold, oriented outward; no degenerate, duplicate or folded faces; not empty"},
          {"printing", Profile::printing,
@@ -23,11 +23,11 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
           "vertices; not empty"},
          {"simulation", Profile::simulation,
           "fit for printing, no T-junctions, all angles at least 5 degrees, aspect ratios up to 20"}},
-        "A purpose, whose assertions are added to those given.");
+        "The purpose of the mesh. Its assertions are added to yours.");
 }
 
-/// The given assertions, plus the profile's assertions for other properties. Without any, the checks of a
-/// sound solid.
+/// The given assertions, plus the profile's assertions about other properties. If both are empty, the checks
+/// of a sound solid.
 [[nodiscard]] Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits,
                                   const Mark& where);
 

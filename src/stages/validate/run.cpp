@@ -25,28 +25,28 @@ struct ValidateOptions {
 void declare(Declare<ValidateOptions>& d) {
     declare_properties(d, &ValidateOptions::assertions, "validate");
     declare_profile(d, &ValidateOptions::profile);
-    d.group("limits", &ValidateOptions::limits, "Limits of the scene as a whole.", declare_limits);
+    d.group("limits", &ValidateOptions::limits, "Limits for the whole scene.", declare_limits);
     d.choice("severity", &ValidateOptions::severity,
-             {{"error", Severity::error, "a failed assertion fails the run, exit 1"},
-              {"warn", Severity::warning, "a failed assertion is reported, and the run goes on"}},
+             {{"error", Severity::error, "the run fails with exit code 1"},
+              {"warn", Severity::warning, "the failure is reported and the run continues"}},
              "The effect of a failed assertion.");
     d.choice(
         "per", &ValidateOptions::per,
         {{"scene", Per::scene,
-          "the scene: counts are summed over the parts, and true or false must hold for all parts"},
+          "the scene: counts are added up over the parts, and true or false must hold for every part"},
          {"part", Per::part, "each part separately"},
-         {"component", Per::component, "each component of each part, connected through edges, for itself"}},
-        "What the assertions apply to.");
+         {"component", Per::component, "each connected component of each part, connected through edges"}},
+        "The objects that each assertion applies to.");
     d.option("baseline", &ValidateOptions::baseline,
-             "A file of known failures, which are waived unless they get worse; new failures fail.");
+             "A file of known failures. They are waived unless they get worse, and new failures fail.");
     d.option("update_baseline", &ValidateOptions::update_baseline,
-             "Writes the failures of this run to the baseline, and waives all of them.");
+             "Writes the failures of this run to the baseline and waives all of them.");
     d.option("mark", &ValidateOptions::mark,
-             "If an assertion fails, a copy of the mesh is written to this file, with the faces at fault in "
-             "red and in the face attribute `failed`. It is written even when the run fails.");
+             "The file for a copy of the mesh if an assertion fails, even when the run fails. Faulty faces "
+             "are red and are marked in the face attribute `failed`.");
 }
 
-/// Baseline entries that no longer need to be waived.
+/// Describes baseline entries that no longer need to be waived.
 std::vector<std::string> lines_of(const ValidateReport& r) {
     const std::size_t fixed = r.fixed.value_or(0), fixed_locations = r.fixed_locations.value_or(0),
                       waived_locations = r.waived_locations.value_or(0);
@@ -56,14 +56,15 @@ std::vector<std::string> lines_of(const ValidateReport& r) {
     if (waived_locations + fixed_locations > 0)
         text += fmt::format("; {} known locations waived", waived_locations);
     if (fixed_locations > 0) text += fmt::format(", {} fixed", fixed_locations);
-    if (!r.fails) text += ": update_baseline tightens the gate"; // with new failures it would waive them
+    // With new failures an update would waive them.
+    if (!r.fails) text += ": use update_baseline to remove them from the baseline";
     return {text};
 }
 
 void declare_report(DeclareFields<ValidateReport>& d) {
     constexpr const char* given = "a baseline is given";
-    d.field("waived", &ValidateReport::waived, "Failures that are known, and waived.").only_when(given);
-    d.field("waived_locations", &ValidateReport::waived_locations, "Locations that are known, and waived.")
+    d.field("waived", &ValidateReport::waived, "Known failures that were waived.").only_when(given);
+    d.field("waived_locations", &ValidateReport::waived_locations, "Known locations that were waived.")
         .only_when(given);
     d.field("fixed", &ValidateReport::fixed, "Known failures that no longer occur.").only_when(given);
     d.field("fixed_locations", &ValidateReport::fixed_locations, "Known locations that no longer occur.")
@@ -92,8 +93,8 @@ struct ValidateStage : StageOf<run> {
     }
     void verify(const Value& given, Problems& problems) const override {
         if (o.update_baseline && !o.baseline)
-            problems.add(given.mark, "E-MISSING", "validate: update_baseline needs a file to write",
-                         "baseline: known.json");
+            problems.add(given.mark, "E-MISSING", "validate: update_baseline needs a baseline file to write",
+                         "add baseline: known.json");
         if (o.mark) verify_failed_copy(o.mark->text, given, problems);
     }
     void on_cells(CellFlow& flow, Context& context) const override {
@@ -103,8 +104,8 @@ struct ValidateStage : StageOf<run> {
     }
     std::optional<std::string> why_not_on_cells() const override {
         if (o.limits.any()) return "limits need the whole scene";
-        if (o.per == Per::component) return "per: component needs the whole mesh";
-        if (o.baseline || o.mark) return "baseline and mark look at places of the whole mesh";
+        if (o.per == Per::component) return "per: component needs the whole mesh in memory";
+        if (o.baseline || o.mark) return "baseline and mark need the whole mesh in memory";
         return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));
     }
 };

@@ -67,7 +67,7 @@ LimitCheck check_limit(const char* name, const std::vector<std::string>& pattern
         if (evidence.size() < max_evidence) evidence.push_back(w.entry);
         if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
         std::uint64_t key = 8;
-        const Json told = report::evidence_json(w.entry); // baselines identify it by this text
+        const Json told = report::evidence_json(w.entry); // baselines identify the entry by this text
         for (const char letter : told.dump(-1, ' ', false, Json::error_handler_t::replace))
             key = hashed(key, static_cast<unsigned char>(letter));
         limit.keys.push_back(key);
@@ -132,7 +132,7 @@ std::vector<Word> extension_names(const Scene& scene) {
     return words;
 }
 
-/// A limit: its option, the given value, and its subjects: shares of a number, or words.
+/// A limit: its option, the given value, and its subjects (shares of a number, or words).
 template <class Given, class Entry>
 struct Limit {
     const char* name;
@@ -149,16 +149,17 @@ Limit(const char*, Given SceneLimits::*, const char*, std::vector<Entry> (*)(con
 template <class Look>
 void each_limit(Look&& look) {
     using L = SceneLimits;
-    look(Limit{"parts", &L::parts, "How many parts; a bare number is the maximum (10).", parts_of});
+    look(Limit{"parts", &L::parts, "The number of parts. A bare number is the maximum (10).", parts_of});
     look(Limit{"materials", &L::materials, "The number of materials.", materials_of});
     look(Limit{"bytes", &L::documents_bytes,
-               "The size of the glTF documents as loaded, with buffers and images: 10MB, 500kB (1000 bytes "
-               "each), 1.5MiB, 500KiB or 500K (1024 bytes each) or a number of bytes.",
+               "The size of the glTF documents as loaded, with buffers and images. Give a number of bytes, "
+               "or a unit: 10MB or 500kB (1000 bytes each), or 1.5MiB, 500KiB or 500K (1024 bytes each).",
                documents_bytes});
     look(Limit{"texture_pixels", &L::texture_pixels,
-               "The number of pixels of all PNG, JPEG and WebP images together (a count).", texture_pixels});
-    look(Limit{"names", &L::names, "Patterns; the name of every part must match one of them.", names_of});
-    look(Limit{"extensions", &L::extensions, "Names or patterns of the glTF extensions that may be used.",
+               "The total number of pixels in all PNG, JPEG and WebP images.", texture_pixels});
+    look(Limit{"names", &L::names, "Patterns for part names. The name of every part must match one of them.",
+               names_of});
+    look(Limit{"extensions", &L::extensions, "Names or patterns of the allowed glTF extensions.",
                extension_names});
 }
 

@@ -17,7 +17,7 @@ struct SceneLimits {
 
 void declare_limits(Declare<SceneLimits>& d);
 
-/// A check; for words without a matching pattern also their keys, ascending.
+/// A check, with the ascending keys of words that match no pattern.
 struct LimitCheck {
     report::Check check;
     std::vector<std::uint64_t> keys = {};

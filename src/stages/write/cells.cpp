@@ -25,21 +25,21 @@ void read_again(const io::Outputs::File& file, Context& context) {
     all.skip(file.bytes);
     if (sum.digest() != file.sha256)
         throw Error(ErrorKind::output, "E-READBACK",
-                    fmt::format("'{}' cannot be read as it was written", file.target.string()),
+                    fmt::format("'{}' cannot be read back as written", file.target.string()),
                     "write it to another disk", context.where());
 }
 
 void warn_of_rounding(double rounding, const WriteOptions& o, const io::Codec& codec, const CellFlow& flow,
                       Context& context) {
-    constexpr double tolerable = 1e-6; // of the diagonal
+    constexpr double tolerable = 1e-6; // times the diagonal
     if (rounding <= tolerable * diagonal(flow.bounds())) return;
-    context.warn(
-        "W-ROUNDED",
-        fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are coarse so far from the "
-                    "origin (the diagonal is {:.4g})",
-                    o.path.text, rounding, diagonal(flow.bounds())),
-        codec.can.full_precision ? "precision: full keeps all digits"
-                                 : "write PLY with precision: full, or transform: {centre: true} first");
+    context.warn("W-ROUNDED",
+                 fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are coarse so far "
+                             "from the origin (the diagonal is {:.4g})",
+                             o.path.text, rounding, diagonal(flow.bounds())),
+                 codec.can.full_precision
+                     ? "precision: full preserves all digits"
+                     : "write PLY with precision: full, or transform: {centre: true} first");
 }
 
 struct Staged {
@@ -47,7 +47,7 @@ struct Staged {
     report::FileRecord told;
 };
 
-/// Stages one file of bytes under the name that the pipeline uses.
+/// Stages bytes as a file under the pipeline's name.
 Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& context) {
     const auto& staged =
         context.outputs().add(context.places().output(name.string()), bytes, context.where());
@@ -82,7 +82,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
 
 /// Warns that a GLB written from cells has positions only, although the format could hold attributes.
 void tell_of_positions_only(const WriteOptions& o, CellFlow& flow, const Part& part, Context& context) {
-    constexpr const char* why = "a GLB that is written from cells has positions only";
+    constexpr const char* why = "a GLB written from cells contains only positions";
     std::vector<std::string> names;
     for (const Attribute& a : flow.partition->cell(0).mesh.attributes) {
         context.attribute_changes(part, {{a.name, a.domain, AttributeChange::Kind::dropped, why}});
@@ -90,12 +90,14 @@ void tell_of_positions_only(const WriteOptions& o, CellFlow& flow, const Part& p
     }
     if (!names.empty())
         context.warn("W-CELLS", fmt::format("'{}': {}, without {}", o.path.text, why, join_texts(names)),
-                     "write PLY, which keeps them, a tileset, or use more memory");
+                     "write PLY or a tileset, which store attributes, or give more memory");
 }
 
-/// A point near the middle of the cells, where float32 would round positions by more than a millionth.
+/// A point near the middle of the cells if float32 would round positions by more than a millionth of the
+/// diagonal.
 Vec3 origin_of(const WriteOptions& o, const io::Codec& codec, const CellFlow& flow) {
-    constexpr double tolerable = 1e-6, step = 1.0 / (1 << 24); // of the diagonal; of a float32
+    constexpr double tolerable = 1e-6,
+                     step = 1.0 / (1 << 24); // times the diagonal; the relative rounding error of a float32
     const Box box = flow.partition->source().contents().bounds;
     double most = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -112,11 +114,11 @@ Vec3 origin_of(const WriteOptions& o, const io::Codec& codec, const CellFlow& fl
 std::optional<std::string> why_not_on_cells(const WriteOptions& o) {
     const io::Codec* codec = codec_of(o);
     if (!codec || !codec->write) return {};
-    if (o.path.text == "-" || io::is_stream(o.path.text)) return "cells are not written to a stream";
-    if (io::packing_named(o.path.text) != io::Packing::none) return "cells are not compressed";
+    if (o.path.text == "-" || io::is_stream(o.path.text)) return "cells cannot be written to a stream";
+    if (io::packing_named(o.path.text) != io::Packing::none) return "cells cannot be compressed";
     if (o.normals != NormalKind::keep || o.tangents != Tangents::keep)
-        return "normals and tangents need the whole mesh";
-    if (o.origin.kind == OriginOption::Kind::point) return "origin is automatic or kept in cells";
+        return "normals and tangents need the whole mesh in memory";
+    if (o.origin.kind == OriginOption::Kind::point) return "in cells, origin must be auto or keep";
     if (codec->can.tiles) return {};
     return cells::why_not_written(*codec, settings_of(o, *codec, o.path.text));
 }

@@ -22,7 +22,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// The world positions of all parts, as a plain Draco file has them.
+/// Joins all parts in world space, as in a plain Draco file.
 Mesh in_one(const Scene& scene) {
     Mesh all;
     for (const Part& part : scene.parts)
@@ -30,8 +30,8 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
-/// the scene's longest side. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
+/// The fewest bits of each part that give world steps no larger than the scene's longest side divided by
+/// 2^bits. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
 std::vector<int> bits_of_scene(const Scene& scene, int bits) {
     constexpr int fewest = 10;
     const double whole = scene.bounds().longest_side();
@@ -69,15 +69,15 @@ void as_shared(std::vector<int>& bits, const Scene& scene) {
 
 std::string why(int usual, Grid grid, int limit, bool enough) {
     if (enough)
-        return fmt::format("the smallest number from {}{} on that keeps vertices distinct", usual,
+        return fmt::format("the smallest number from {}{} that keeps vertices distinct", usual,
                            grid == Grid::mesh ? "" : " for the size of the scene");
-    return fmt::format("{} would not keep all vertices distinct", limit);
+    return fmt::format("{} bits would not keep all vertices distinct", limit);
 }
 
-/// The reason why rounding merged points or put points onto lines, and the hint.
+/// Explains why rounding merged points or put points onto lines, with a hint.
 std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const std::size_t points = back.changes.rounded;
-    const std::string what = points > 0 ? fmt::format("put {} on others", counted(points, "point"))
+    const std::string what = points > 0 ? fmt::format("moved {} onto others", counted(points, "point"))
                                         : std::string("moved points onto lines of others");
     if (settings.draco.on && back.grid_step >= back.float_step)
         return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
@@ -86,13 +86,13 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
         return fmt::format("the grid of {} bits {}: use more bits of quantize.position, or no quantize",
                            settings.quantize.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
-        return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
+        return fmt::format("32-bit floats {}: use precision: full to keep all bits", what);
     return fmt::format(
         "the 32-bit floats of {} {}: use clean before write, or write PLY, OBJ or OFF with precision: full",
         codec.name, what);
 }
 
-/// The reason why a file is less sound than the scene, and the hint.
+/// Explains why a file is less sound than the scene, with a hint.
 std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const io::VertexChanges& changes = back.changes;
     std::vector<std::string> reasons;
@@ -102,8 +102,8 @@ std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::W
                                       codec.name, changes.added));
     if (changes.merged > 0 && !codec.can.shares_vertices)
         reasons.push_back(
-            fmt::format("{} has no shared vertices, so corners at the same position are one when "
-                        "it is read ({} fewer): write 3MF, PLY, OBJ or OFF, where they stay apart",
+            fmt::format("{} has no shared vertices, so corners at the same position are merged when it is "
+                        "read ({} fewer): write 3MF, PLY, OBJ or OFF, which keep them separate",
                         codec.name, changes.merged));
     else if (changes.merged > 0)
         reasons.push_back(
@@ -124,23 +124,22 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
     if (o.unit != Unit::unknown && scene.unit == Unit::unknown)
         throw Error(ErrorKind::stage, "E-UNIT",
                     fmt::format("the scene has no unit, so it cannot be written in {}", to_string(o.unit)),
-                    "give the unit when it is loaded: load: {path: ..., unit: mm}", context.where());
+                    "give the unit when you load it: load: {path: ..., unit: mm}", context.where());
     if (o.up != UpAxis::unknown && scene.up == UpAxis::unknown)
         throw Error(ErrorKind::stage, "E-UP", "the scene has no up axis, so it cannot be rotated",
-                    "give the up axis when it is loaded: load: {path: ..., up: z}", context.where());
+                    "give the up axis when you load it: load: {path: ..., up: z}", context.where());
     const io::Conversion done = io::convert(scene, target);
     if (done.unit_guessed)
         context.warn("W-UNITS",
-                     fmt::format("the scene has no unit: '{}' gets its numbers as they are, and {} means {}",
+                     fmt::format("the scene has no unit: '{}' gets its numbers unchanged, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
-                     "give both when it is loaded: load: {path: ..., unit: mm, up: z}");
+                     "give both when you load it: load: {path: ..., unit: mm, up: z}");
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
 }
 
 namespace {
-constexpr double tolerable_rounding =
-    1e-6; // of the diagonal, the same as for glTF origins and for the read-back
+constexpr double tolerable_rounding = 1e-6; // times the diagonal, as for glTF origins and the read-back
 } // namespace
 
 bool may_need_full(const WriteOptions& o, const io::Codec& codec, const Box& bounds) {
@@ -167,9 +166,9 @@ double moved_by_floats(const Scene& scene) {
 
 bool needs_full(double rounding, const Box& bounds, Context& context) {
     if (rounding <= tolerable_rounding * diagonal(bounds)) return false;
-    context.say(fmt::format(
-        "positions with 64 bits: float32 would move them by up to {:.2g} (precision: single does)",
-        rounding));
+    context.say(fmt::format("positions are written with 64 bits, because float32 would move them by up to "
+                            "{:.2g} (precision: single does)",
+                            rounding));
     return true;
 }
 
@@ -256,7 +255,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
     ProgressSteps steps({1, 3});
     for (const auto& file : written.files) {
         if (main && path == "-") {
-            context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output beside the mesh",
+            context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output together with the mesh",
                                                   file.name.string()));
             continue;
         }
@@ -281,18 +280,17 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
     context.output_records()[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",
-                     fmt::format("'{}' is less sound when read back than the scene: {}", path.string(),
+                     fmt::format("'{}' has more defects when read back than the scene: {}", path.string(),
                                  fmt::join(back.losses, ", ")),
                      reason(back, codec, settings));
     if (back.too_far_for_floats())
-        context.warn(
-            "W-ROUNDED",
-            fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are {:.2g} apart so far "
-                        "from the origin (the diagonal is {:.4g})",
-                        path.string(), back.position_error, back.float_step, back.diagonal),
-            codec.can.full_precision && !settings.double_positions
-                ? "precision: full keeps all digits"
-                : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
+        context.warn("W-ROUNDED",
+                     fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are {:.2g} apart "
+                                 "so far from the origin (the diagonal is {:.4g})",
+                                 path.string(), back.position_error, back.float_step, back.diagonal),
+                     codec.can.full_precision && !settings.double_positions
+                         ? "precision: full keeps all digits"
+                         : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
 }
 
 } // namespace facetmill::write_stage

@@ -7,7 +7,7 @@ namespace facetmill::write_stage {
 
 struct WriteReport {
     struct Bits {
-        int position_bits = 0; ///< in the part with the most
+        int position_bits = 0; ///< the largest number of bits of any part
         std::optional<int> least;
         std::string why;
     };
@@ -21,8 +21,8 @@ struct WriteReport {
 
 void declare_write_report(DeclareFields<WriteReport>& d);
 
-/// Converts to the unit and up axis of the file: the option's, otherwise the format's. Throws stage (E-UNIT,
-/// E-UP) if the option gives one and the scene has none. Warns of guesses.
+/// Converts to the unit and up axis that the options give, otherwise to the format's. Throws a stage error
+/// (E-UNIT, E-UP) if an option gives a unit or axis and the scene has none. Warns of guesses.
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
                    WriteReport& report);
 
@@ -36,8 +36,8 @@ bool needs_full(double rounding, const Box& bounds, Context& context);
 
 /// For each material of the scene, the set of texture coordinates of its normal map, if any.
 [[nodiscard]] std::vector<std::optional<int>> normal_map_uvs(const Scene& scene);
-/// Adds tangents to a part if one of its materials has a normal map. Returns false, and changes nothing,
-/// without a normal map, normals or texture coordinates. The same applies if existing tangents are to stay.
+/// Adds tangents to a part if one of its materials has a normal map. Returns false, without a change, if the
+/// part lacks a normal map, normals or texture coordinates, or if existing tangents must stay.
 bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_material, const WriteOptions& o,
                    Context& context);
 
@@ -49,7 +49,7 @@ bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o);
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report);
 
-/// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go
+/// Stages the files and reads the first file back. The first file gets the pipeline's path; the others go
 /// into the same folder. Warns if the file read back is less sound than the scene.
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
                  const Scene& scene, const io::WriteSettings& settings, Context& context);

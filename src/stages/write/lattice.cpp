@@ -17,16 +17,16 @@ namespace {
 
 double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
 
-/// The step of the scene's grid: longest side / (2^bits - 1), made 1e-4 to 2e-4 longer so that the number of
-/// steps fits. It has five digits, so that grid coordinates are short too.
+/// The step of the scene's grid: longest side / (2^bits - 1), lengthened by a factor of 1e-4 to 2e-4 so that
+/// the number of steps fits. Five digits keep grid coordinates short.
 double step_of_scene(const Scene& scene, int bits) {
     const double step = scene.bounds().longest_side() / steps_of(bits) * (1 + 2e-4);
     return parse_real(fmt::format("{:.4e}", step)).value_or(step);
 }
 
 /// An upper bound for the stretch of a transform. It is exact for similarities, and nearly exact for rounded
-/// similarities. The greatest eigenvalue of a symmetric matrix is at most the greatest sum of a row's
-/// absolute numbers.
+/// similarities. The largest eigenvalue of a symmetric matrix is at most the largest sum of absolute values
+/// in a row.
 double stretch_of(const Transform& t) {
     const Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
     double most = 0;
@@ -47,11 +47,11 @@ double plain_scale(const Transform& t) {
     return scale > 0 ? scale : 0;
 }
 
-/// For a part that its node only scales uniformly and moves: the last world grid point that is not above the
-/// bounds. For other parts the grid goes through the part's own zero.
+/// The origin of a part's grid. If the node only scales uniformly and moves, it is the last world grid point
+/// not above the bounds. For other parts it is the part's own origin.
 Vec3 origin_of(const Part& part, const Box& box, double step, bool in_world) {
     const double scale = in_world ? plain_scale(part.transform) : 0;
-    constexpr double exact = 0x1p44; // steps; doubles represent this many exactly
+    constexpr double exact = 0x1p44; // doubles represent this many steps exactly
     Vec3 origin;
     for (std::size_t c = 0; c < 3; ++c) {
         double moved = scale > 0 ? part.transform.m[c][3] / scale : 0;

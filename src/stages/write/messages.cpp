@@ -6,12 +6,12 @@ const RegisterMessages write_messages{
     {"E-UP", "The scene has no up axis, so it cannot be rotated.",
      "Give the up axis when loading: `load: {up: z}`.", ErrorKind::stage},
     {"W-ORIGIN",
-     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
-     "position it.",
-     "Drop skins and animations first if you need the new origin."},
+     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does not only "
+     "set a position.",
+     "If you need the new origin, first remove skins and animations."},
     {"W-ROUNDED",
-     "Rounding or a limit of the format made a written file less sound than the scene. Or it moved points by "
-     "more than a millionth of the diagonal.",
+     "Rounding or a limit of the format gave a written file more defects than the scene. Or it moved points "
+     "by more than a millionth of the diagonal.",
      "Use a format with more digits (`precision: full`) or more Draco bits, and move distant parts to the "
      "origin (`transform: {centre: true}`)."},
 };

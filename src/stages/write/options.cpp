@@ -23,37 +23,34 @@ void declare_grid(Declare<Options>& d) {
     d.template choice<Grid>(
         "grid", &Options::grid,
         {{"scene", Grid::scene,
-          "the steps are at most those of the scene's longest side; a small mesh has fewer "
-          "bits, but at least 10"},
-         {"mesh", Grid::mesh, "each mesh has all bits for its own longest side"},
+          "steps are at most the scene's longest side divided by 2^bits - 1; a small mesh gets fewer bits, "
+          "but at least 10"},
+         {"mesh", Grid::mesh, "each mesh uses all bits for its own longest side"},
          {"even", Grid::even,
-          "the same steps everywhere, those of the scene's longest side, however small a mesh is, but finer "
-          "ones where vertices would coincide otherwise; in quantize, parts that meet keep meeting: where "
-          "none is turned, all have one grid. Meshes that an animation moves are as with scene"}},
-        "What the bits of positions are of.");
+          "all meshes use the same steps, derived from the scene's longest side, and finer steps only where "
+          "vertices would coincide; with quantize, parts that meet stay in contact, and parts that are not "
+          "rotated share one grid; animated meshes use scene"}},
+        "The size that the bits of positions divide.");
 }
 
 void declare_draco(Declare<DracoOptions>& d) {
     d.option("position_bits", &DracoOptions::position_bits,
-             "Bits of each coordinate: the longest side is divided into 2^bits - 1 steps (a count); unless "
-             "given, 14, and up to 24 where vertices would coincide otherwise (14, if 24 are too few).")
+             "Bits of each coordinate. The longest side is divided into 2^bits - 1 steps. Default: 14, and "
+             "up to 24 where vertices would coincide. If 24 bits are too few, 14 are used.")
         .between(1, 30);
     declare_grid(d);
-    d.option("normal_bits", &DracoOptions::normal_bits, "Bits of normals (a count).").between(1, 30);
-    d.option("uv_bits", &DracoOptions::uv_bits, "Bits of texture coordinates (a count).").between(1, 30);
-    d.option("colour_bits", &DracoOptions::colour_bits, "Bits of colours (a count).").between(1, 30);
-    d.option("generic_bits", &DracoOptions::generic_bits, "Bits of every other attribute (a count).")
-        .between(1, 30);
-    d.option("speed", &DracoOptions::speed,
-             "0 gives the smallest file, 10 the fastest compression (a count).")
+    d.option("normal_bits", &DracoOptions::normal_bits, "Bits of normals.").between(1, 30);
+    d.option("uv_bits", &DracoOptions::uv_bits, "Bits of texture coordinates.").between(1, 30);
+    d.option("colour_bits", &DracoOptions::colour_bits, "Bits of colours.").between(1, 30);
+    d.option("generic_bits", &DracoOptions::generic_bits, "Bits of all other attributes.").between(1, 30);
+    d.option("speed", &DracoOptions::speed, "0 gives the smallest file, 10 the fastest compression.")
         .between(0, 10);
     d.choice<DracoOptions::Degenerate>(
          "degenerate_faces", &DracoOptions::degenerate_faces,
-         {{"drop", DracoOptions::Degenerate::drop, "they are left out, with a warning"},
+         {{"drop", DracoOptions::Degenerate::drop, "remove these faces, with a warning"},
           {"keep", DracoOptions::Degenerate::keep,
-           "in a separate primitive, without the connectivity that makes Draco files small"}},
-         "What is done with faces that use a vertex twice, which Draco's compression of connectivity cannot "
-         "represent.")
+           "store them in a separate primitive, with weaker compression"}},
+         "How to handle faces that use a vertex twice. Draco's compression cannot represent such faces.")
         .also_called(property_named("degenerate_faces")->also_called);
     d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, DracoOptions& out, Problems& problems) {
@@ -63,19 +60,19 @@ void declare_draco(Declare<DracoOptions>& d) {
 
 void declare_quantize(Declare<QuantizeOptions>& d) {
     d.option("position", &QuantizeOptions::position,
-             "Bits of each coordinate: the longest side is divided into 2^bits - 1 steps (a count); unless "
-             "given, 14, and up to 16 where vertices would coincide otherwise (14, if 16 are too few).")
+             "Bits of each coordinate. The longest side is divided into 2^bits - 1 steps. Default: 14, and "
+             "up to 16 where vertices would coincide. If 16 bits are too few, 14 are used.")
         .between(1, 16);
     declare_grid(d);
-    d.option("normal", &QuantizeOptions::normal, "Bits of each number of normals and tangents (a count).")
+    d.option("normal", &QuantizeOptions::normal, "Bits of each component of normals and tangents.")
         .between(2, 16);
     d.option("uv", &QuantizeOptions::uv,
-             "Bits of texture coordinates (a count). Under meshopt's filters they are multiples of 2^-uv in "
-             "float32; otherwise those beyond [-1, 1] stay float32.")
+             "Bits of texture coordinates. With meshopt's filters, coordinates are multiples of 2^-uv in "
+             "float32. Otherwise, coordinates beyond [-1, 1] stay float32.")
         .between(1, 16);
-    d.option("colour", &QuantizeOptions::colour, "Bits of each channel of colours (a count).").between(1, 16);
+    d.option("colour", &QuantizeOptions::colour, "Bits of each colour channel.").between(1, 16);
     d.option("weights", &QuantizeOptions::weights,
-             "8 stores the weights of joints as bytes, more as 16 bits (a count).")
+             "8 stores joint weights as bytes. More bits store them as 16-bit numbers.")
         .between(8, 16);
     d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, QuantizeOptions& out, Problems& problems) {
@@ -85,19 +82,17 @@ void declare_quantize(Declare<QuantizeOptions>& d) {
 
 void declare_meshopt(Declare<MeshoptOptions>& d) {
     using Extension = io::MeshoptSettings::Extension;
-    d.choice<Extension>(
-        "extension", &MeshoptOptions::extension,
-        {{"EXT", Extension::ext, "EXT_meshopt_compression, which readers have known since 2020"},
-         {"KHR", Extension::khr,
-          "KHR_meshopt_compression, with streams of version 1: smaller files for newer readers"}},
-        "The name of the extension under which the compressed data is stored.");
+    d.choice<Extension>("extension", &MeshoptOptions::extension,
+                        {{"EXT", Extension::ext, "EXT_meshopt_compression, supported by readers since 2020"},
+                         {"KHR", Extension::khr,
+                          "KHR_meshopt_compression with version 1 streams: smaller files for newer readers"}},
+                        "The glTF extension for the compressed data.");
     d.option("filters", &MeshoptOptions::filters,
-             "Encodes normals and tangents on an octahedron, rotations of animations and instances in 16 "
-             "bits, and values that stay float32 as multiples of a power of two: positions within quantize's "
-             "bits; translations, scales and morph weights within 2^-16 of their extent, "
-             "places of instances within a quarter of a step of the grid. "
-             "Without filters, the values are "
-             "compressed unchanged.");
+             "Rounds values before compression. Normals and tangents become octahedral, and rotations of "
+             "animations and instances get 16 bits. Other float32 values become multiples of a power of two. "
+             "Positions use the bits of quantize. Translations, scales and morph weights stay within 2^-16 "
+             "of their extent, positions of instances within a quarter of a grid step. Without filters, "
+             "values are compressed unchanged.");
     d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, MeshoptOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
@@ -107,24 +102,24 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
 void declare_tiles(Declare<TilesOptions>& d) {
     d.choice<TilesOptions::Kind>(
          "format", &TilesOptions::format,
-         {{"3d", TilesOptions::Kind::three_d, "3D Tiles 1.1, each tile a GLB, refined by REPLACE"}},
-         "The kind of tiles.")
+         {{"3d", TilesOptions::Kind::three_d, "3D Tiles 1.1; each tile is a GLB, refined by REPLACE"}},
+         "The format of the tiles.")
         .also_called(format_synonyms)
         .primary();
     d.option("faces", &TilesOptions::faces,
-             "Triangles that a tile has at the most, but where its borders need more (a count).")
+             "The maximum number of triangles in a tile. A tile may have more if its borders need them.")
         .also_called(property_named("faces")->also_called)
         .between(100, 10000000);
     d.choice<bool>(
         "tiling", &TilesOptions::implicit,
         {{"explicit", false, "the tileset lists every tile"},
          {"implicit", true,
-          "tiles are known by level and place in a quadtree; binary files of some levels each say which "
-          "there are, with their boxes and errors, so that a viewer reads no list of all"}},
-        "How the tileset names its tiles.");
+          "tiles are identified by their level and position in a quadtree; binary files list the existing "
+          "tiles of a few levels each, with boxes and errors, so viewers need not read the whole list"}},
+        "How the tileset refers to its tiles.");
 }
 
-/// An option that only some formats support, and whether it is set to have an effect.
+/// An option that only some formats support, and whether its value has an effect.
 struct FormatOption {
     const char* name;
     bool asked;
@@ -158,11 +153,11 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
         std::vector<std::string> formats;
         for (const auto& other : io::codecs())
             if (other.write && known(other.can)) formats.push_back(other.name);
-        add_refusal(
-            Refusal{name,
-                    fmt::format("'{}' goes with {}, not with {}", name, fmt::join(formats, ", "), codec.name),
-                    "leave it out"},
-            "write", given, problems);
+        add_refusal(Refusal{name,
+                            fmt::format("'{}' works with {}, not with {}", name, fmt::join(formats, ", "),
+                                        codec.name),
+                            "remove it"},
+                    "write", given, problems);
     }
     const bool draco = o.draco && o.draco->on;
     for (const auto& [name, asked] : {std::pair("quantize", o.quantize && o.quantize->on),
@@ -170,28 +165,27 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
                                       std::pair("order", o.order != io::TriangleOrder::automatic)})
         if (draco && asked)
             add_refusal(Refusal{name,
-                                fmt::format("'{}' and 'draco' exclude each other, since Draco compresses the "
-                                            "same data in its own way",
+                                fmt::format("'{}' and 'draco' exclude each other because Draco compresses "
+                                            "the same data in its own way",
                                             name),
-                                "leave one of them out"},
+                                "remove one of them"},
                         "write", given, problems);
     if (const bool meshopt = o.meshopt && o.meshopt->on; o.interleave && (draco || meshopt))
         add_refusal(Refusal{"interleave",
-                            fmt::format("'interleave' and '{}' exclude each other, since that compresses "
-                                        "each attribute by itself",
+                            fmt::format("'interleave' and '{}' exclude each other because the latter "
+                                        "compresses each attribute separately",
                                         draco ? "draco" : "meshopt"),
-                            "leave one of them out"},
+                            "remove one of them"},
                     "write", given, problems);
     if (o.textures == io::Textures::embed && codec.can.textures && !codec.can.library.empty())
         add_refusal(
             Refusal{"textures",
-                    fmt::format("{} cannot hold images: its textures are files beside it", codec.name),
-                    "write: {textures: copy}, or a .glb"},
+                    fmt::format("{} cannot contain images: its textures are separate files", codec.name),
+                    "use write: {textures: copy}, or write a .glb"},
             "write", given, problems);
     if (o.feature_angle && o.normals != NormalKind::smooth)
-        add_refusal(
-            Refusal{"feature_angle", "'feature_angle' goes with normals: smooth only", "add normals: smooth"},
-            "write", given, problems);
+        add_refusal(Refusal{"feature_angle", "'feature_angle' needs normals: smooth", "add normals: smooth"},
+                    "write", given, problems);
 }
 
 bool is_tileset_name(const std::string& path) {
@@ -207,114 +201,114 @@ std::string title_of(const std::filesystem::path& target) {
 
 void declare_write(Declare<WriteOptions>& d) {
     d.option("path", &WriteOptions::path,
-             "The file to write; its suffix decides the format; - is standard output.")
+             "The file to write. Its suffix selects the format. - writes to standard output.")
         .also_called(path_synonyms)
         .primary()
         .required();
-    d.option("format", &WriteOptions::format, "The name of the format, when the suffix does not show it.")
+    d.option("format", &WriteOptions::format, "The name of the format, if the suffix does not show it.")
         .also_called(format_synonyms);
     d.choice<Unit>("unit", &WriteOptions::unit,
-                   unit_choices("auto", "the format's (glTF: metres), else the scene's"),
+                   unit_choices("auto", "the unit of the format (glTF: metres), otherwise the scene's unit"),
                    "The unit of the numbers in the file.")
         .also_called(property_named("unit")->also_called);
-    d.choice<UpAxis>("up", &WriteOptions::up, up_choices("auto", "the format's (glTF: y), else the scene's"),
-                     "The axis that points up in the file.")
+    d.choice<UpAxis>("up", &WriteOptions::up,
+                     up_choices("auto", "the axis of the format (glTF: y), otherwise the scene's axis"),
+                     "The up axis of the file.")
         .also_called(property_named("up")->also_called);
-    d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.")
+    d.option("ascii", &WriteOptions::ascii, "Writes PLY and STL as text instead of binary.")
         .also_called("binary", "(ascii: false), which is the default");
-    d.option("big_endian", &WriteOptions::big_endian, "Binary PLY with the most significant byte first.");
-    d.choice<Precision>(
-        "precision", &WriteOptions::precision,
-        {{"auto", Precision::automatic,
-          "single, but full in PLY, OBJ and OFF where float32 would move points by more than a "
-          "millionth of the scene's diagonal, as with geographic coordinates"},
-         {"single", Precision::single, "rounded to 32-bit floats"},
-         {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF, 3MF)"}},
-        "How positions are written.");
+    d.option("big_endian", &WriteOptions::big_endian,
+             "Writes binary PLY with the most significant byte first.");
+    d.choice<Precision>("precision", &WriteOptions::precision,
+                        {{"auto", Precision::automatic,
+                          "single; but full in PLY, OBJ and OFF if float32 would move points by more than a "
+                          "millionth of the scene's diagonal, as with geographic coordinates"},
+                         {"single", Precision::single, "positions are rounded to 32-bit floats"},
+                         {"full", Precision::full, "positions keep all 64 bits (PLY, OBJ, OFF, 3MF)"}},
+                        "The precision of positions.");
     d.option(
         "origin", &WriteOptions::origin,
-        "Where coordinates in the file count from, in formats whose parts have places (glTF, 3MF): a point "
-        "of "
-        "the scene, to which the parts' nodes move; keep, the origin that they have; or auto: keep, unless "
-        "float32 would move points by more than a millionth of the scene's diagonal, as with geographic "
-        "coordinates, then a point near the centre.");
-    d.option(
-        "triangulate", &WriteOptions::triangulate,
-        "Writes triangles to PLY, OBJ and OFF, for programs that read no larger faces; other formats have "
-        "triangles in any case. The scene keeps its faces.");
+        "The origin of coordinates in glTF and 3MF files. Give a point of the scene, which the nodes of the "
+        "parts then refer to. keep preserves the current origins. auto is like keep, but uses a point near "
+        "the centre if float32 would move points by more than a millionth of the scene's diagonal.");
+    d.option("triangulate", &WriteOptions::triangulate,
+             "Writes triangles to PLY, OBJ and OFF, for programs that cannot read larger faces. Other "
+             "formats always get triangles. The faces of the scene do not change.");
     d.choice<NormalKind>(
         "normals", &WriteOptions::normals,
         {{"keep", NormalKind::keep,
-          "those of the scene; viewers of glTF use flat shading where there are none"},
-         {"smooth", NormalKind::smooth, "the mean of the faces around a vertex, weighted by angle"},
+          "the normals of the scene; without normals, viewers of glTF use flat shading"},
+         {"smooth", NormalKind::smooth, "the mean of the face normals around a vertex, weighted by angle"},
          {"flat", NormalKind::flat, "the normals of the faces"},
-         {"none", NormalKind::none, "neither normals nor tangents are written"}},
-        "The normals in the file; the scene keeps its own.");
+         {"none", NormalKind::none, "no normals and tangents are written"}},
+        "The normals in the file. The normals of the scene do not change.");
     d.option("feature_angle", &WriteOptions::feature_angle,
-             "With normals: smooth, edges whose dihedral angle is larger than this stay sharp (an angle "
-             "between the normals of the two faces; if not given, none does).")
+             "With normals: smooth, keeps edges sharp if the normals of their two faces differ by more than "
+             "this angle. By default, no edge is sharp.")
         .above(0);
     d.choice<Tangents>(
         "tangents", &WriteOptions::tangents,
-        {{"keep", Tangents::keep, "those of the scene; viewers make them where there are none"},
-         {"missing", Tangents::missing, "made by MikkTSpace where a material has a map of normals"},
-         {"new", Tangents::all, "made there in any case"}},
-        "The tangents in a glTF file; the scene keeps its own.");
+        {{"keep", Tangents::keep, "the tangents of the scene; viewers compute missing tangents"},
+         {"missing", Tangents::missing,
+          "computes missing tangents with MikkTSpace for materials with a normal map"},
+         {"new", Tangents::all, "computes all tangents for materials with a normal map"}},
+        "The tangents in a glTF file. The tangents of the scene do not change.");
     d.group("draco", &WriteOptions::draco,
-            "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco)
+            "Writes glTF with KHR_draco_mesh_compression. Give true, or a map of settings.", declare_draco)
         .also_called("compress compression use_draco compressed");
     d.group("quantize", &WriteOptions::quantize,
-            "Writes glTF with KHR_mesh_quantization, which stores attributes as small integers: true, or the "
-            "numbers of bits. meshopt also quantises unless this is false.",
+            "Writes glTF with KHR_mesh_quantization, which stores attributes as small integers. Give true, "
+            "or the numbers of bits. meshopt also quantises, unless this is false.",
             declare_quantize);
     d.group("meshopt", &WriteOptions::meshopt,
-            "Writes glTF with EXT_meshopt_compression: true, or its settings.", declare_meshopt);
-    d.group("tiles", &WriteOptions::tiles,
-            "Writes a tileset: 3d, or its settings. A path that ends in tileset.json says so by itself.",
-            declare_tiles);
+            "Writes glTF with EXT_meshopt_compression. Give true, or a map of settings.", declare_meshopt);
+    d.group(
+        "tiles", &WriteOptions::tiles,
+        "Writes a tileset. Give 3d, or a map of settings. You can omit it if the path ends in tileset.json.",
+        declare_tiles);
     d.choice<io::TriangleOrder>(
         "order", &WriteOptions::order,
         {{"auto", io::TriangleOrder::automatic,
-          "size under meshopt, else draw; a mesh that comes from glTF unchanged stays as it is"},
-         {"keep", io::TriangleOrder::keep, "as the scene has them"},
+          "size with meshopt, otherwise draw; an unchanged mesh from a glTF file keeps its order"},
+         {"keep", io::TriangleOrder::keep, "the order of the scene"},
          {"draw", io::TriangleOrder::draw,
-          "triangles that share vertices behind each other, those that hide others first"},
-         {"size", io::TriangleOrder::size, "the one of several, mostly strips, that meshopt compresses best"},
+          "triangles that share vertices are close together, and triangles that hide others come first"},
+         {"size", io::TriangleOrder::size,
+          "the best of several orders, mostly strips, for meshopt's compression"},
          {"strips", io::TriangleOrder::strips,
-          "one order of strips, found in a fifth of the time; under meshopt about 1 % larger"}},
+          "a single order of strips, found in a fifth of the time; about 1 % larger with meshopt"}},
         "The order of triangles and vertices in glTF.");
     d.option("interleave", &WriteOptions::interleave,
-             "Puts the attributes of a vertex side by side in glTF, in one buffer view with a stride, which "
-             "some GPUs draw faster; morph targets stay by themselves. Without it, each attribute has a "
-             "view of its own, which gzip makes smaller.");
+             "Stores the attributes of a vertex next to each other in glTF, in one buffer view with a "
+             "stride. Some GPUs draw this faster. Morph targets stay separate. Otherwise, each attribute has "
+             "its own view, which gzip compresses better.");
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
-             "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
+             "Writes glTF with EXT_mesh_manifold, so that readers do not need to weld.");
     d.choice<io::Textures>(
         "textures", &WriteOptions::textures,
         {{"auto", io::Textures::automatic, "embed for .glb, copy for .gltf and .obj"},
-         {"embed", io::Textures::embed, "in the .glb or the .bin; an .obj cannot hold them"},
-         {"copy", io::Textures::copy, "beside the file, under names that begin with its stem"},
-         {"reference", io::Textures::reference, "not at all: the file refers to the images of the input"}},
-        "Where the images of textures are stored. Those that a glTF input holds itself stay in a .glb or "
-        ".bin, and "
-        "become files beside an .obj.");
-    d.option(
-        "drop_names", &WriteOptions::drop_names,
-        "Leaves out of glTF the names of nodes, meshes, images, skins and accessors, and that of the program "
-        "it came from (generator); scenes, animations, cameras and materials keep theirs.");
+         {"embed", io::Textures::embed, "in the .glb or the .bin; an .obj cannot contain images"},
+         {"copy", io::Textures::copy,
+          "as separate files next to the output, with names that begin with its stem"},
+         {"reference", io::Textures::reference, "not copied: the file refers to the images of the input"}},
+        "Where to store the images of textures. Images inside a glTF input stay inside a .glb or .bin, and "
+        "become separate files for an .obj.");
+    d.option("drop_names", &WriteOptions::drop_names,
+             "Removes names of nodes, meshes, images, skins and accessors from glTF, and the name of the "
+             "original program (generator). Scenes, animations, cameras and materials keep their names.");
     d.option("lods", &WriteOptions::lods,
-             "Writes glTF with MSFT_lod: the parts X.lod1, X.lod2, ... become levels of detail of X rather "
-             "than nodes beside it.");
+             "Writes glTF with MSFT_lod. The parts X.lod1, X.lod2, ... become levels of detail of X instead "
+             "of separate nodes.");
 }
 
 namespace {
 
-/// The stage that writes such a file, otherwise the list of formats.
+/// Names the stage that writes such a file, otherwise lists the formats.
 std::string hint_of_suffix(const std::string& path, const std::vector<std::string>& names) {
     const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
     if (suffix == ".svg" || suffix == ".dxf")
-        return fmt::format("section: {{path: {}}} draws what a plane cuts", path);
-    if (suffix == ".png") return fmt::format("render: {{path: {}}} makes a picture", path);
+        return fmt::format("use section: {{path: {}}} to draw a plane section", path);
+    if (suffix == ".png") return fmt::format("use render: {{path: {}}} to make an image", path);
     if (std::string hint = io::hint_for_writing(path); !hint.empty()) return hint;
     return fmt::format("give 'format', one of: {}", fmt::join(names, ", "));
 }
@@ -329,23 +323,23 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
     const auto names = io::names_of_writers();
     const Mark& mark = format ? format->mark : path ? path->mark : given.mark;
     if (!codec && format)
-        problems.add(mark, "E-FORMAT", fmt::format("there is no format '{}'", o.format),
+        problems.add(mark, "E-FORMAT", fmt::format("format '{}' does not exist", o.format),
                      suggestion(o.format, names));
     else if (!codec)
         problems.add(mark, "E-FORMAT", fmt::format("the suffix of '{}' names no format", o.path.text),
                      hint_of_suffix(o.path.text, names));
     else if (!codec->write)
-        problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
+        problems.add(mark, "E-FORMAT", fmt::format("{} can be read but not written", codec->name),
                      suggestion("", names));
     else if (codec->can.tiles && !is_tileset_name(o.path.text))
-        problems.add(
-            path ? path->mark : mark, "E-FORMAT",
-            fmt::format("tiles go to a folder beside a tileset, which '{}' does not name", o.path.text),
-            "give a path that ends in .json, such as out/tileset.json");
+        problems.add(path ? path->mark : mark, "E-FORMAT",
+                     fmt::format("tiles go to a folder next to a tileset, but '{}' does not name a tileset",
+                                 o.path.text),
+                     "give a path that ends in .json, such as out/tileset.json");
     else if (!codec->can.companion.empty() && o.path.text == "-")
         problems.add(mark, "E-FORMAT",
-                     fmt::format("a {} has a file beside it, which standard output cannot hold", codec->name),
-                     "format: glb");
+                     fmt::format("a {} needs a second file, which standard output cannot hold", codec->name),
+                     "use format: glb");
     else
         verify_options(o, *codec, given, problems);
 }

@@ -54,7 +54,7 @@ struct WriteOptions {
          interleave = false, triangulate = false;
     Precision precision = Precision::automatic;
     NormalKind normals = NormalKind::keep;
-    std::optional<Angle> feature_angle; ///< of smooth normals
+    std::optional<Angle> feature_angle; ///< for smooth normals
     OriginOption origin;
     Tangents tangents = Tangents::keep;
     std::optional<DracoOptions> draco;

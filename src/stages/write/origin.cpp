@@ -74,7 +74,7 @@ std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option
     const Box box = scene.bounds();
     const double size = box.diagonal();
     if (option.kind == Kind::keep || box.empty() || !std::isfinite(size)) return {};
-    constexpr double tolerable = 1e-6; // of the diagonal
+    constexpr double tolerable = 1e-6; // times the diagonal
     std::vector<std::size_t> chosen;
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
@@ -91,8 +91,7 @@ std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option
                                              fmt::join(kept, ", ")));
     if (chosen.empty()) return {};
     OriginReport report{option.kind == Kind::point ? option.point : near_centre(box), chosen.size()};
-    const auto first =
-        DistinctParts(scene).first; // of the meshes before the move, because the moved meshes stay equal
+    const auto first = DistinctParts(scene).first; // uses the meshes before the move; equal meshes stay equal
     std::map<std::size_t, Vec3> offsets;
     for (const std::size_t i : chosen) {
         Part& part = scene.parts[i];

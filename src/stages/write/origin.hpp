@@ -1,6 +1,6 @@
 #pragma once
-// Moves the origin of a file's coordinates. Far from the origin, float32 numbers are coarse, so meshes count
-// from a point near them. The nodes are translated by that point.
+// Moves the origin of a file's coordinates. Because float32 numbers are coarse far from the origin, mesh
+// positions become relative to a nearby point, and nodes are translated by that point.
 
 #include "io/codec.hpp"
 #include "options/declaration.hpp"
@@ -34,9 +34,10 @@ struct OriginReport {
 };
 
 /// Moves the origin of parts to a world point: subtracts it from the positions and adds it to the transform.
-/// automatic: a point near the centre, for parts that float32 would round by more than a millionth of the
-/// scene's diagonal. Skinned parts stay unchanged. So do all parts of a document under animations or
-/// instancing (W-ORIGIN if a point was requested). moved: the moved parts and their previous positions.
+/// automatic: uses a point near the centre, for parts that float32 would round by more than a millionth of
+/// the scene's diagonal. Skinned parts, and all parts of documents with animations or instancing, stay
+/// unchanged (W-ORIGIN if a point was requested). moved: receives the moved parts and their previous
+/// positions.
 [[nodiscard]] std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option,
                                                       Context& context,
                                                       std::map<std::size_t, std::vector<Vec3>>& moved);

@@ -14,7 +14,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// A part lent to the written scene: its number in the scene, and its state before.
+/// A part that is temporarily in the written scene: its index in the scene, and its state before.
 struct Lent {
     std::size_t part;
     Transform transform;
@@ -34,7 +34,7 @@ void make_triangles(Scene& out, std::vector<Lent>& lent) {
     }
 }
 
-/// The same, for normals.
+/// Computes normals of the written parts and saves the scene's own meshes in `lent`.
 void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.normals == NormalKind::keep) return;
     for (std::size_t k = 0; k < lent.size(); ++k) {
@@ -48,7 +48,7 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     }
 }
 
-/// The same, for tangents.
+/// Computes tangents of the written parts and saves the scene's own meshes in `lent`.
 void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
     if (o.tangents == Tangents::keep) return;
     const auto uvs = normal_map_uvs(out);
@@ -67,19 +67,22 @@ void declare_order(DeclareFields<io::VertexCacheUse>& d) {
         };
     };
     d.field("acmr_before", per(&Use::before, &Use::triangles),
-            "Vertices transformed per triangle (ACMR), with a cache of 16 and the order of the scene.");
-    d.field("acmr", per(&Use::after, &Use::triangles), "The same, as written; about 0.5 at best.");
+            "Average vertex transforms per triangle (ACMR) with a cache of 16 vertices, in the order of the "
+            "scene.");
+    d.field("acmr", per(&Use::after, &Use::triangles),
+            "ACMR in the written order. The best value is about 0.5.");
     d.field("atvr_before", per(&Use::before, &Use::vertices),
             "How often each vertex is transformed (ATVR), in the order of the scene.");
-    d.field("atvr", per(&Use::after, &Use::vertices), "The same, as written; 1 at best.");
+    d.field("atvr", per(&Use::after, &Use::vertices), "ATVR in the written order. The best value is 1.");
 }
 
 void declare_tiles_written(DeclareFields<io::TilesWritten>& d) {
     using Tiles = io::TilesWritten;
-    d.field("tiles", &Tiles::tiles, "Tiles, each a file.");
-    d.field("leaves", &Tiles::leaves, "Those without tiles below: together they have every triangle.");
-    d.field("levels", &Tiles::levels, "Tiles on the longest way from the root to a leaf.");
-    d.field("largest", &Tiles::largest, "Triangles of the largest tile.");
+    d.field("tiles", &Tiles::tiles, "The number of tiles. Each tile is a file.");
+    d.field("leaves", &Tiles::leaves,
+            "The number of tiles without children. Together they contain all triangles.");
+    d.field("levels", &Tiles::levels, "The largest number of tiles on a path from the root to a leaf.");
+    d.field("largest", &Tiles::largest, "The number of triangles in the largest tile.");
     d.field("error", &Tiles::error, "The geometric error of the root, in metres.");
 }
 
@@ -96,7 +99,7 @@ bool is_left_out(const Part& part, const io::Codec& codec) {
     return part.mesh.line_count() > 0 && !codec.can.lines;
 }
 
-/// Warns of parts left out because they have lines. Throws stage (E-EMPTY) if no other part is left.
+/// Warns of parts left out because they have lines. Throws a stage error (E-EMPTY) if no other part is left.
 void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, const io::Codec& codec,
                 Context& context) {
     std::vector<std::string> names;
@@ -104,20 +107,21 @@ void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, con
         if (is_left_out(part, codec) && context.selects(part, scene)) names.push_back(part.name);
     if (names.empty()) return;
     const std::string hint =
-        fmt::format("lines go to {}", fmt::join(formats_with(&io::Capabilities::lines), ", "));
+        fmt::format("{} can store lines", fmt::join(formats_with(&io::Capabilities::lines), ", "));
     if (out.parts.empty())
         throw Error(
             ErrorKind::stage, "E-EMPTY",
             fmt::format("there is nothing to write to '{}': the scene has lines and no faces", o.path.text),
             hint, context.where());
     context.warn("W-LINES",
-                 fmt::format("'{}': {} cannot hold lines, so {} {} left out: {}", o.path.text, codec.name,
+                 fmt::format("'{}': {} cannot store lines, so {} {} skipped: {}", o.path.text, codec.name,
                              counted(names.size(), "part"), names.size() == 1 ? "is" : "are",
                              fmt::join(names, ", ")),
                  hint);
 }
 
-/// Throws stage (E-EMPTY) unless the format can store the scene's points or lines with these options.
+/// Throws a stage error (E-EMPTY) unless the format can store the scene's points or lines with these
+/// options.
 void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
@@ -137,14 +141,14 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
     for (const io::Codec& other : io::codecs())
         if (other.write && other.can.points && other.can.draco == io::Capabilities::Draco::always)
             compressing.push_back(other.name);
-    throw Error(
-        ErrorKind::stage, "E-EMPTY",
-        fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
-                    any ? "points and no faces" : "neither faces nor points"),
-        any ? fmt::format("points go to {}; compressed to {} only", fmt::join(formats, ", "),
-                          fmt::join(compressing, ", "))
-            : "check what the stages before kept; the common key when: {vertices: {min: 1}} skips a write",
-        context.where());
+    throw Error(ErrorKind::stage, "E-EMPTY",
+                fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
+                            any ? "points and no faces" : "neither faces nor points"),
+                any ? fmt::format("{} can store points, but only {} can compress them",
+                                  fmt::join(formats, ", "), fmt::join(compressing, ", "))
+                    : "check the result of the stages before; the common key when: {vertices: {min: 1}} "
+                      "skips an empty write",
+                context.where());
 }
 
 /// Logs the number of faces that are written as triangles, unless all faces are triangles.
@@ -162,30 +166,30 @@ void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec
 } // namespace
 
 void declare_write_report(DeclareFields<WriteReport>& d) {
-    d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
-        .only_when("it is not 1");
-    d.field("up", &WriteReport::up, "The axis that points up in the file.")
-        .only_when("the scene was turned for it");
-    d.object("origin", &WriteReport::origin, "The point that coordinates in the file count from.",
+    d.field("factor", &WriteReport::factor, "The factor that the unit of the file applied to lengths.")
+        .only_when("the factor is not 1");
+    d.field("up", &WriteReport::up, "The up axis of the file.")
+        .only_when("the scene was rotated for the file");
+    d.object("origin", &WriteReport::origin, "The origin of the coordinates in the file.",
              [](DeclareFields<OriginReport>& f) {
-                 f.field("offset", &OriginReport::offset, "The point, in the scene's units.");
-                 f.field("parts", &OriginReport::parts, "Parts whose nodes stand there.");
+                 f.field("offset", &OriginReport::offset, "The point in the scene's units.");
+                 f.field("parts", &OriginReport::parts, "The number of parts whose nodes are at this point.");
              })
-        .only_when("it was moved");
+        .only_when("the origin was moved");
     const auto bits = [](DeclareFields<WriteReport::Bits>& b) {
         b.field("position_bits", &WriteReport::Bits::position_bits,
-                "Bits of each coordinate, in the part that has the most.");
-        b.field("least", &WriteReport::Bits::least, "Those in the part that has the fewest.")
-            .only_when("not all have the same");
-        b.field("why", &WriteReport::Bits::why, "The reason for this number.");
+                "Bits of each coordinate. If parts differ, the largest number.");
+        b.field("least", &WriteReport::Bits::least, "The smallest number of bits of any part.")
+            .only_when("the parts have different numbers of bits");
+        b.field("why", &WriteReport::Bits::why, "The reason for this number of bits.");
     };
-    d.object("draco", &WriteReport::draco, "How positions were rounded.", bits)
+    d.object("draco", &WriteReport::draco, "The rounding of positions.", bits)
         .only_when("the file is compressed by Draco");
-    d.object("quantize", &WriteReport::quantize, "How positions were rounded.", bits)
+    d.object("quantize", &WriteReport::quantize, "The rounding of positions.", bits)
         .only_when("attributes are stored as small integers");
-    d.object("order", &WriteReport::order, "How the order of triangles suits a cache of vertices.",
+    d.object("order", &WriteReport::order, "How well the order of triangles suits a vertex cache.",
              declare_order)
-        .only_when("triangles were put in another order");
+        .only_when("the triangles were reordered");
     d.object("tiles", &WriteReport::tiles, "The tree of tiles.", declare_tiles_written)
         .only_when("a tileset was written");
 }
@@ -197,7 +201,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (!codec || !codec->write)
         throw Error(ErrorKind::usage, "E-FORMAT",
                     fmt::format("the suffix of '{}' names no format", o.path.text), {}, context.where());
-    // Moves the parts into the written scene, so that no mesh is copied. They return unchanged afterwards.
+    // Moves the parts into the written scene, so that no mesh is copied; they are moved back afterwards.
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)

@@ -72,3 +72,15 @@ TEST_CASE("a path is one that a pattern names, component by component", "[base]"
     CHECK(glob_matches_path("in/*/*.ply", "in/deep/a.ply"));
     CHECK_FALSE(glob_matches_path("in/*/*.ply", "in/a.ply"));
 }
+
+TEST_CASE("alternatives in braces are of paths only", "[base]") {
+    CHECK(glob_matches_path("a/*.{obj,glb}", "a/x.glb"));
+    CHECK(glob_matches_path("{a,b{1,2}}/*.obj", "b2/x.obj"));
+    CHECK_FALSE(glob_matches_path("{a,b{1,2}}/*.obj", "b/x.obj"));
+    CHECK(glob_matches_path("{a}", "{a}"));
+    CHECK(glob_matches_path("${lod}.ply", "${lod}.ply"));
+    CHECK(is_glob("{a,b}.ply"));
+    CHECK_FALSE(is_glob("{a}.ply"));
+    CHECK_FALSE(is_glob("{a/b,c}.ply"));
+    CHECK_FALSE(glob_matches("{a,b}", "a")); // names of parts and materials
+}

@@ -15,7 +15,7 @@ namespace {
 io::FootprintRings read(const std::string& text) {
     io::Bytes bytes(text.size());
     if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
-    return io::read_footprint(io::Input::of("outline", std::move(bytes)));
+    return io::read_footprint(io::Input::of("outline", std::move(bytes))).rings;
 }
 std::string refusal(const std::string& text) {
     return test::failure([&] { read(text); });
@@ -80,7 +80,7 @@ TEST_CASE("footprints from DXF", "[io]") {
     CHECK(refusal(head + "0\nLWPOLYLINE\n70\n1\n10\nwide\n").starts_with("malformed [E-DXF] outline:"));
     CHECK(refusal("hello") ==
           "malformed [E-FOOTPRINT] outline: this is neither GeoJSON nor WKT nor DXF as text | a "
-          "footprint is a POLYGON or MULTIPOLYGON, or closed polylines of a DXF");
+          "footprint is a POLYGON or MULTIPOLYGON, or outlines of a DXF");
 }
 
 TEST_CASE("outlines of a DXF drawn from behind, in blocks, and out of the plane", "[io]") {
@@ -99,7 +99,14 @@ TEST_CASE("outlines of a DXF drawn from behind, in blocks, and out of the plane"
         read("0\nSECTION\n2\nBLOCKS\n" + outline("") + "0\nENDSEC\n" + entities + outline("") + end).size() ==
         1);
     CHECK(refusal(entities + outline("210\n1\n220\n0\n230\n0\n") + end) ==
-          "malformed [E-DXF] outline:27: a closed outline does not lie in the drawing's plane");
+          "malformed [E-DXF] outline:6: a closed outline does not lie in the drawing's plane");
+}
+
+TEST_CASE("a ring that repeats another one is left out", "[io]") {
+    // The same square from another corner, the other way round, and with one more corner.
+    CHECK(read("POLYGON ((0 0, 4 0, 4 4, 0 4)); POLYGON ((4 4, 4 0, 2 0, 0 0, 0 4))").size() == 1);
+    // The corners and areas of these two are the same, but their notches are on different sides.
+    CHECK(read("MULTIPOLYGON (((0 0, 2 2, 4 0, 4 4, 0 4)), ((0 0, 4 0, 4 4, 2 2, 0 4)))").size() == 2);
 }
 
 TEST_CASE("a section's drawing is a footprint", "[io]") {

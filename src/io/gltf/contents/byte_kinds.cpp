@@ -76,7 +76,7 @@ ByteKinds byte_kinds(const std::string& name, std::uint64_t size, Span bytes) {
     try {
         if (is_glb(bytes)) return of_document(split_glb(bytes).json, size, true);
         if (name.ends_with(".gltf") && !bytes.empty()) return of_document(as_text(bytes), size, false);
-    } catch (const Error&) { // its reader says what is wrong with it
+    } catch (const Error&) { // the file's reader reports its faults
     }
     return by_name(name, size);
 }

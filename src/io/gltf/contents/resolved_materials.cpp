@@ -101,7 +101,7 @@ class LookBuilder {
         return out;
     }
 
-    /// The specification's product T R S as two rows.
+    /// Stores the specification's product T R S as two rows.
     static void transform(const JsonCursor& moved, Texture& out) {
         std::array<float, 2> offset{0, 0}, scale{1, 1};
         numbers(moved, "offset", offset);
@@ -216,7 +216,7 @@ std::shared_ptr<const ResolvedMaterials> MaterialResolver::materials(const Scene
             look = found->second;
             continue;
         }
-        try { // if reading did not check it: reading checks only meshes
+        try { // may fail, because reading checks only meshes
             const auto builder = builders.try_emplace(document.get(), *this, known, warnings).first;
             look = builder->second.look(material);
         } catch (const Error& error) {

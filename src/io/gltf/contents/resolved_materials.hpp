@@ -1,7 +1,7 @@
 #pragma once
-// The materials of a scene as a renderer needs them: decoded images, samplers, texture transforms and
-// factors. Materials of other formats are converted to glTF first (io/material_document.hpp), so one
-// implementation handles all.
+// Prepares the materials of a scene for rendering: decoded images, samplers, texture transforms and factors.
+// Materials of other formats are converted to glTF first (io/material_document.hpp), so one implementation
+// handles all.
 
 #include "base/error.hpp"
 #include "geometry/render/texture.hpp"
@@ -13,16 +13,16 @@
 namespace facetmill::io {
 
 /// Resolves materials, and caches decoded images as long as the scene has their document. So each image is
-/// decoded once, however many stages render the scene.
+/// decoded once even if several stages render the scene.
 class MaterialResolver {
   public:
     /// max_bytes: limit for decoded images.
     explicit MaterialResolver(std::size_t max_bytes = std::size_t{512} << 20) : most_(max_bytes) {}
 
-    /// By the index of the scene's materials. A blending material with an alpha of 0 becomes opaque. An image
-    /// is skipped if it is missing, broken, unsupported or larger than 2^26 pixels, or if it would exceed
-    /// max_bytes in total. Each skipped image gives one warning (W-TEXTURE). Levels of more than 4096 pixels
-    /// a side are not kept.
+    /// The resolved materials, by the scene's material index. A blending material with an alpha of 0 becomes
+    /// opaque. An image is skipped if it is missing, broken, unsupported or larger than 2^26 pixels, or if
+    /// it would exceed max_bytes in total. Each skipped image gives one warning (W-TEXTURE). Levels of more
+    /// than 4096 pixels a side are not kept.
     std::shared_ptr<const ResolvedMaterials> materials(const Scene& scene, std::vector<Diagnostic>& warnings);
 
   private:
@@ -31,12 +31,12 @@ class MaterialResolver {
     struct OfDocument {
         std::shared_ptr<const Document> document; ///< kept alive, so that no other document gets its address
         std::map<ImageKey, std::shared_ptr<const TextureImage>> images;
-        std::map<int, MaterialLook> materials; ///< by index in the document
+        std::map<int, MaterialLook> materials; ///< materials by index in the document
     };
-    void drop_others(const Scene& scene); ///< documents that the scene no longer has
+    void drop_others(const Scene& scene); ///< drops documents that the scene no longer has
 
     std::map<const Document*, OfDocument> documents_;
-    std::size_t bytes_ = 0; ///< of all images
+    std::size_t bytes_ = 0; ///< the total size of all images
     std::size_t most_;
 };
 

@@ -15,7 +15,7 @@ using namespace gltf;
 
 namespace {
 
-/// An extension for a kind of image that core glTF lacks.
+/// An extension for an image type that core glTF lacks.
 struct KindOfImage {
     const char* type;
     const char* extension;
@@ -32,7 +32,7 @@ const Json* object_at(const Json& owner, const char* key) {
 
 // --- the uses of images
 
-/// The use of a texture by its name in a material, from glTF 2.0 and its extensions.
+/// How a texture with this name in a material is used, by glTF 2.0 and its extensions.
 ImageUse use_of(const std::string& name) {
     static const std::set<std::string> colours = {"baseColorTexture",
                                                   "emissiveTexture",
@@ -147,7 +147,7 @@ class Uses {
     const Json& json_;
     std::size_t images_, textures_;
     std::vector<ImageUse> all_;
-    bool held_ = false, covers_ = false; ///< of the current material
+    bool held_ = false, covers_ = false; ///< state of the current material
 };
 
 /// The bytes of an image; empty if they are not available.
@@ -194,7 +194,7 @@ class Replacing {
     }
 
   private:
-    /// Images with the same file and the same bytes continue to share it.
+    /// Images that shared a file and still have equal bytes continue to share it.
     void put_file(Json& image, const Bytes& bytes, const std::string& type) {
         const auto old = image["uri"].get<std::string>();
         const std::string before = media_type(out_.files[old]);
@@ -264,7 +264,7 @@ class Replacing {
             return found == types_.end() ? std::string() : found->second;
         };
         const std::size_t images = count_of(json_, "images");
-        for (const KindOfImage& kind : kinds_by_extension) { // for an image whose kind has changed
+        for (const KindOfImage& kind : kinds_by_extension) { // needed for an image whose kind has changed
             const Json* extensions = object_at(texture, "extensions");
             const Json* named = extensions ? object_at(*extensions, kind.extension) : nullptr;
             const auto image = named ? index_at(*named, "source", images) : std::nullopt;
@@ -300,10 +300,11 @@ class Replacing {
     Document out_;
     Json json_;
     const std::map<std::size_t, Bytes>& replaced_;
-    std::map<std::size_t, std::string> types_;                           ///< media types of replaced images
-    std::map<std::pair<std::string, std::string>, std::string> renamed_; ///< by the old name and the new type
-    std::map<std::string, Bytes> files_;                                 ///< with new bytes
-    std::map<std::size_t, std::size_t> views_;                           ///< by the old view
+    std::map<std::size_t, std::string> types_; ///< media types of replaced images
+    std::map<std::pair<std::string, std::string>, std::string>
+        renamed_;                              ///< new names by old name and new type
+    std::map<std::string, Bytes> files_;       ///< files with new bytes
+    std::map<std::size_t, std::size_t> views_; ///< new views by old view
 };
 
 } // namespace
@@ -347,7 +348,7 @@ std::vector<Bytes> image_bytes(const Document& document, const Json& json) {
         try { // reading checks only meshes, so this may throw
             all[i] = bytes_of_image(document, source, json["images"][i]);
         } catch (const Error&) {
-            all[i].clear(); // write or render reports it
+            all[i].clear(); // write or render reports the error
         }
     }
     return all;

@@ -15,14 +15,14 @@ namespace facetmill::io {
 
 /// How all materials of a document use an image.
 struct ImageUse {
-    bool colours = false;  ///< red, green and blue in sRGB
-    bool normals = false;  ///< a tangent-space normal map
-    bool numbers = false;  ///< metalness, roughness, occlusion, thickness ...
-    bool coverage = false; ///< alpha is coverage, in a material that masks or blends
-    bool alpha = false;    ///< alpha is used, as coverage or as a number
-    bool nearest = false;  ///< sampled without interpolation, for example a palette
-    bool fallback = false; ///< for readers without an extension that gives another image
-    bool held = false;     ///< something outside the selected materials uses it, so it must stay unchanged
+    bool colours = false;              ///< red, green and blue in sRGB
+    bool normals = false;              ///< a tangent-space normal map
+    bool numbers = false;              ///< metalness, roughness, occlusion, thickness ...
+    bool coverage = false;             ///< alpha is coverage, in a material that masks or blends
+    bool alpha = false;                ///< alpha is used, as coverage or as a number
+    bool nearest = false;              ///< sampled without interpolation, for example a palette
+    bool fallback = false;             ///< used by readers that lack an extension with another image
+    bool held = false;                 ///< used outside the selected materials, so it must stay unchanged
     std::vector<std::string> textures; ///< names in materials, such as "baseColorTexture", each once
 
     /// Adds the uses of other.
@@ -32,16 +32,17 @@ struct ImageUse {
 /// An image of a document.
 struct DocumentImage {
     std::size_t index = 0;
-    std::string name; ///< its own name, else its file's, else its index: "images[3]"
+    std::string name; ///< the image's name, otherwise its file's name, otherwise its index: "images[3]"
     Bytes bytes;      ///< empty if missing or not read
     ImageUse use;
 };
 
 /// The images of the document, by index. held: materials whose images must stay unchanged. Images that
 /// EXT_structural_metadata, EXT_mesh_features or EXT_lights_image_based use are held too. Invalid references
-/// are skipped. Throws malformed when the document is not JSON.
+/// are skipped. Throws a malformed-input error when the document is not JSON.
 [[nodiscard]] std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
-/// The name of an image in messages: its own name, else its file's, else its index: "images[3]".
+/// The name of an image in messages: its own name, otherwise its file's name, otherwise its index:
+/// "images[3]".
 [[nodiscard]] std::string name_of_image(const Json& image, std::size_t index);
 /// The bytes of the document's images, given its parsed JSON; empty for images that are missing or were not
 /// read.
@@ -49,9 +50,9 @@ struct DocumentImage {
 
 /// An image of a document as a file: the named file, or a generated name for an embedded image.
 struct ImageFile {
-    std::size_t index = 0; ///< in the document
+    std::size_t index = 0; ///< index in the document
     std::filesystem::path relative;
-    std::string uri; ///< of a separate file; else empty
+    std::string uri; ///< URI of a separate file, or empty
     Bytes bytes;
 };
 /// The images with available bytes: first files, then embedded images, each by index.
@@ -62,8 +63,9 @@ struct ImageFile {
 
 /// The data of a glTF file that formats with image libraries need for planning.
 struct LibraryImageNames {
-    std::vector<NamedImage> embedded; ///< of kinds that libraries name, with the names of image_files
-    /// Embedded images and files that no drawn material uses.
+    std::vector<NamedImage>
+        embedded; ///< embedded images of types that libraries name, with the names of image_files
+    /// Embedded images and image files that no drawn material uses.
     std::set<std::filesystem::path> idle;
 };
 /// Empty for other formats and unreadable files.
@@ -74,7 +76,7 @@ struct LibraryImageNames {
 struct PlaceOfFile {
     std::filesystem::path file, way; ///< relative to the directory
 };
-/// None when the URI is remote or absolute. directory: empty for the working directory.
+/// None if the URI is remote or absolute. An empty directory means the working directory.
 [[nodiscard]] std::optional<PlaceOfFile> place_of_file(const Document& document, const std::string& uri,
                                                        const std::filesystem::path& directory);
 

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t max_zeros = std::size_t{256} << 20;
 
-/// count elements of `components` numbers, `stride` bytes apart.
+/// Reads count elements of `components` numbers, `stride` bytes apart.
 template <class T>
 void gather(const std::byte* from, std::size_t count, std::size_t stride, int components,
             std::vector<T>& to) {
     const std::size_t width = static_cast<std::size_t>(components), bytes = width * sizeof(T);
     if (stride == bytes && reinterpret_cast<std::uintptr_t>(from) % alignof(T) == 0) {
-        const auto* const numbers = reinterpret_cast<const T*>(from); // not initialised with zeros first
+        const auto* const numbers = reinterpret_cast<const T*>(from); // avoids initialising with zeros first
         to.assign(numbers, numbers + count * width);
         return;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Accessors of a glTF document as typed arrays. The document is untrusted: every range is checked against the
-// available bytes. Memory out of proportion to the bytes is refused.
+// Reads accessors of a glTF document as typed arrays. The document is untrusted: every range is checked
+// against the available bytes. Memory out of proportion to the bytes is refused.
 
 #include "io/bytes.hpp"
 #include "io/codec.hpp"
@@ -25,7 +25,7 @@ enum ComponentType : int {
 [[nodiscard]] std::size_t size_of(int component_type);
 /// Numbers of an element ("VEC3" 3, "MAT4" 16); 0 for an unknown name.
 [[nodiscard]] int components_of(std::string_view type);
-/// An empty array of that type.
+/// An empty array of this type.
 [[nodiscard]] AttributeData empty_data(int component_type);
 /// The glTF type of an array's numbers; 0 if glTF has no such type (float64, int32).
 [[nodiscard]] int component_type_of(const AttributeData& data);
@@ -46,8 +46,8 @@ class Source {
     bool without_bytes(std::size_t index) const;
     /// Bytes of a range of a buffer, checked. owner has "buffer", "byteOffset" and "byteLength".
     Span range(const JsonCursor& owner) const;
-    /// Counts memory that few bytes of the file can request. Throws limit (E-MEMORY) when the total is too
-    /// large.
+    /// Counts memory that few bytes of the file can request. Throws a limit error (E-MEMORY) when the total
+    /// is too large.
     void need(double bytes);
 
     const Decodings* decoded = nullptr; ///< already decoded
@@ -68,13 +68,14 @@ struct Accessor {
     int components;
     bool normalised;
 };
-/// The accessor that reference names. Throws malformed (E-GLTF).
+/// The accessor that reference names. Throws a malformed-input error (E-GLTF).
 [[nodiscard]] Accessor accessor(const Source& source, const JsonCursor& reference);
 
-/// All numbers of an accessor, element by element, sparse replacements applied. Throws malformed (E-GLTF,
-/// E-BUFFER) and limit (E-LIMIT, when an accessor without bytes asks for more than 256 MiB of zeros).
+/// All numbers of an accessor, element by element, with sparse replacements applied. Throws a
+/// malformed-input error (E-GLTF, E-BUFFER) and a limit error (E-LIMIT, when an accessor without bytes asks
+/// for more than 256 MiB of zeros).
 [[nodiscard]] AttributeData decode(Source& source, const Accessor& accessor);
-/// The indices of a primitive, each below count. Throws malformed (E-INDEX).
+/// The indices of a primitive, each below count. Throws a malformed-input error (E-INDEX).
 [[nodiscard]] std::vector<Index> decode_indices(Source& source, const JsonCursor& reference,
                                                 std::size_t count);
 
@@ -82,8 +83,8 @@ struct Accessor {
 inline constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 /// The object of EXT_meshopt_compression or KHR_meshopt_compression in a buffer or a view.
 [[nodiscard]] std::optional<JsonCursor> meshopt_extension(const JsonCursor& owner);
-/// Decompresses the data that a view's extension object (either name) describes. Throws malformed (E-MESHOPT;
-/// also for streams that the library is too old for), limit (E-MEMORY).
+/// Decompresses the data that a view's extension object (either name) describes. Throws a malformed-input
+/// error (E-MESHOPT; also for streams that the library is too old for) and a limit error (E-MEMORY).
 [[nodiscard]] Bytes decode_meshopt(Source& source, const JsonCursor& extension);
 
 } // namespace facetmill::io::gltf

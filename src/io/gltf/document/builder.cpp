@@ -45,7 +45,7 @@ void erase_positions(std::vector<std::size_t>& list, const Numbers& positions) {
     list = std::move(kept);
 }
 
-// References to single items, see the end of this file.
+// Visits references to single items, see the end of this file.
 using Visit = std::function<void(Json&)>;
 void primitive_accessors(Json& primitive, const Visit& visit);
 void primitive_views(Json& primitive, const Visit& visit);
@@ -124,7 +124,7 @@ void Builder::drop_released() {
          dead_views = flags_of(released_views_, count_of(json_, "bufferViews"));
     Json& all_accessors = json_["accessors"];
     visit_accessor_references(json_, [&](Json& r) { keep(dead_accessors, r); });
-    // References of dropped accessors do not count as use.
+    // References from dropped accessors do not count as use.
     for (std::size_t a = 0; a < dead_accessors.size(); ++a)
         if (dead_accessors[a])
             accessor_views(all_accessors[a], [&](Json& r) {
@@ -132,7 +132,7 @@ void Builder::drop_released() {
             });
     for (std::size_t a = 0; a < dead_accessors.size(); ++a)
         if (dead_accessors[a])
-            all_accessors[a] = nullptr; // unknown extensions of it do not matter
+            all_accessors[a] = nullptr; // unknown extensions of a dropped accessor do not matter
         else
             accessor_views(all_accessors[a], [&](Json& r) { keep(dead_views, r); });
     other_views(json_, [&](Json& r) { keep(dead_views, r); });
@@ -156,7 +156,7 @@ void Builder::drop_released() {
 }
 
 std::vector<std::optional<Packing>> Builder::packings_now() const {
-    std::map<std::size_t, std::string> filters; // by current view index
+    std::map<std::size_t, std::string> filters; // filters by current view index
     for (std::size_t i = 0; i < old_view_.size(); ++i)
         if (const auto filter = filters_.find(old_view_[i]); filter != filters_.end())
             filters[i] = filter->second;
@@ -198,7 +198,7 @@ void Builder::join_views() {
     erase_positions(old_view_, joined);
 }
 
-/// True if a compressed view of the source is copied as it is in the file.
+/// True if a compressed view of the source is copied unchanged.
 bool Builder::passes_through(std::size_t i) const {
     if (!meshopt_.on || new_views_.contains(old_view_[i])) return false;
     const Json* compressed = compression_of(json_["bufferViews"][i]);
@@ -211,7 +211,7 @@ bool Builder::passes_through(std::size_t i) const {
 
 /// The streams of the views; empty for views written uncompressed because compression would not pay off.
 std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing>>& how) {
-    constexpr std::size_t json_bytes = 160; // of the extension's object
+    constexpr std::size_t json_bytes = 160; // bytes of JSON for the extension's object
     std::vector<Bytes> packed(old_view_.size());
     if (how.empty()) return packed;
     std::vector<Span> plain(old_view_.size());
@@ -408,7 +408,7 @@ void accessor_views(Json& accessor, const Visit& visit) {
     reference(member(member(sparse, "values"), "bufferView"), visit);
 }
 
-/// References from everything except accessors.
+/// Visits references to views from everything except accessors.
 void other_views(Json& document, const Visit& visit) {
     each(member(&document, "images"), [&](Json& image) { reference(member(&image, "bufferView"), visit); });
     each(member(&document, "meshes"), [&](Json& mesh) { mesh_views(mesh, visit); });

@@ -43,7 +43,7 @@ class Builder {
     /// Marks the accessors and views of a primitive for removal, unless something else uses them.
     void release(const Json& primitive);
     void release_mesh(const Json& mesh); ///< the same for all primitives and extensions of a mesh
-    /// Compresses views with the settings' extension where that saves space.
+    /// Requests compression of views with the settings' extension, where it saves space.
     void compress(const MeshoptSettings& settings) { meshopt_ = settings; }
     void use_extension(const std::string& name, bool required);
     void drop_extension(const std::string& name);
@@ -65,8 +65,8 @@ class Builder {
 
     Json original_, json_;
     std::vector<Bytes> no_buffers_;
-    std::map<std::size_t, Bytes> new_views_;     // by index when added
-    std::map<std::size_t, std::string> filters_; // of new views
+    std::map<std::size_t, Bytes> new_views_;     // by view index at the time of adding
+    std::map<std::size_t, std::string> filters_; // filters of new views
     Source source_, current_;
     std::vector<std::size_t> old_view_; // the original index of each remaining view
     std::set<std::size_t> released_accessors_, released_views_;

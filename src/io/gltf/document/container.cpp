@@ -60,7 +60,7 @@ Chunks split_glb(Span bytes) {
     Chunks chunks;
     for (std::size_t at = 12, number = 0; at < length; ++number) {
         if (length - at < 8) {
-            if (number > 0) break; // stray padding after the last chunk
+            if (number > 0) break; // ignores stray padding after the last chunk
             fail(at, "a chunk header is cut short");
         }
         const std::uint32_t size = word(bytes, at), kind = word(bytes, at + 4);
@@ -95,10 +95,10 @@ Bytes join_glb(std::string_view json, Span binary) {
     return out;
 }
 
-// --- The only user of tinygltf, which resolves buffers: it decodes data URIs and calls our callbacks for
-// files. It gets one buffer at a time and never the whole document. Its parser does not check references, and
-// refuses buffers that only EXT_meshopt_compression needs. Its model also loses unknown contents (64-bit
-// integers, nulls, empty objects). It never gets images.
+// --- Only this file uses tinygltf, to resolve buffers: it decodes data URIs and calls our callbacks for
+// files. It gets one buffer at a time, never the whole document or images. Its parser does not check
+// references, and refuses buffers that only EXT_meshopt_compression needs. Its model also loses unknown
+// contents (64-bit integers, nulls, empty objects).
 
 namespace fs = std::filesystem;
 

@@ -1,6 +1,6 @@
 #pragma once
 // The files of a glTF: the GLB container (a 12-byte header, a JSON chunk and an optional binary chunk, each
-// padded to 4 bytes), and separate buffers and images. These are named by relative URIs, and the directory
+// padded to 4 bytes), and separate buffers and images. Relative URIs name these files, and the directory
 // rule applies to all of them (io/images/image_files.hpp).
 
 #include "io/bytes.hpp"
@@ -34,10 +34,10 @@ struct Chunks {
     std::string_view json;
     std::optional<Span> binary;
 };
-/// Throws malformed (E-GLB) with the byte offset of the error. Skips unknown chunks.
+/// Throws a malformed-input error (E-GLB) with the byte offset of the error. Skips unknown chunks.
 [[nodiscard]] Chunks split_glb(Span bytes);
-/// The container of a document and its buffer (none when empty). Throws limit (E-SIZE) beyond 4 GiB, the
-/// maximum of the header's size field.
+/// The container of a document and its buffer (none when empty). Throws a limit error (E-SIZE) beyond 4 GiB,
+/// the maximum of the header's size field.
 [[nodiscard]] Bytes join_glb(std::string_view json, Span binary);
 
 /// True for "data:..." URIs.
@@ -46,16 +46,17 @@ bool is_data_uri(std::string_view uri);
 [[nodiscard]] Bytes data_uri_bytes(std::string_view uri);
 /// The percent-decoded, normalised path of a relative URI; none for absolute or remote URIs.
 [[nodiscard]] std::optional<std::filesystem::path> decoded_path(std::string_view uri);
-/// The file of a buffer. Throws malformed (E-URI) when it is absolute, remote, or breaks the directory rule.
+/// The file of a buffer. Throws a malformed-input error (E-URI) when it is absolute, remote, or breaks the
+/// directory rule.
 [[nodiscard]] std::filesystem::path buffer_path(const JsonCursor& buffer, const std::string& uri,
                                                 const Input& input);
 
 /// The files that "buffers" or "images" name, relative to the document, each once. Does not apply the
 /// directory rule.
 [[nodiscard]] std::vector<std::filesystem::path> neighbours(const Json& document, const char* list);
-/// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only for
-/// readers without meshopt decoding stay empty. Throws malformed (E-URI for a URI that breaks the directory
-/// rule, E-BUFFER for too few bytes), missing (E-FILE).
+/// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only
+/// for readers without meshopt decoding stay empty. Throws a malformed-input error (E-URI for a URI that
+/// breaks the directory rule, E-BUFFER for too few bytes) and a missing-file error (E-FILE).
 [[nodiscard]] std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk,
                                               const Input& input, ReadLog& log);
 

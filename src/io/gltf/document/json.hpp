@@ -15,14 +15,14 @@
 
 namespace facetmill::io::gltf {
 
-/// Parses a document. Throws malformed: E-JSON with the byte of the syntax error, or for nesting deeper than
-/// 256 levels (the JSON library recurses when writing and copying). unread: lists of the document that are
-/// checked for syntax, and may be left empty.
+/// Parses a document. Throws a malformed-input error: E-JSON with the byte of the syntax error, or for
+/// nesting deeper than 256 levels, because the JSON library recurses when writing and copying. unread: lists
+/// that the caller does not need; they are checked for syntax, but may be left empty.
 [[nodiscard]] Json parse_document(std::string_view text, std::span<const std::string_view> unread = {});
 /// The document as text; replaces invalid UTF-8 in names from other sources.
 [[nodiscard]] std::string to_string(const Json& document);
 
-/// A value of the document and its path. Every access checks and throws malformed (E-GLTF).
+/// A value of the document and its path. Every access checks and throws a malformed-input error (E-GLTF).
 class JsonCursor {
   public:
     JsonCursor(const Json& json, std::string path) : json_(&json) {
@@ -39,7 +39,7 @@ class JsonCursor {
     std::size_t size() const;             ///< items of an array
 
     std::uint64_t natural(std::uint64_t max = UINT64_MAX) const;  ///< an integer from 0 to max
-    std::size_t index(std::size_t count, const char* what) const; ///< a reference to one of count things
+    std::size_t index(std::size_t count, const char* what) const; ///< an index below count
     double real() const;
     bool boolean() const;
     std::string text() const;
@@ -76,8 +76,8 @@ class JsonCursor {
     std::shared_ptr<const std::string> above_; // path of the value before these steps; null: ""
 };
 
-/// An object with these members: key, value, key, value ... An initialiser list would copy each value and
-/// test each for being a pair. Keys must differ.
+/// An object with these members: key, value, key, value ... Unlike this function, an initialiser list would
+/// copy each value and test whether it is a pair. Keys must differ.
 template <class... Members>
 [[nodiscard]] Json object_of(Members&&... members) {
     Json object = Json::object();
@@ -98,7 +98,7 @@ template <class... Members>
 [[nodiscard]] std::size_t count_of(const Json& document, const char* name);
 /// Item i of a top-level array; i must have been checked against count_of.
 [[nodiscard]] JsonCursor item(const Json& document, const char* name, std::size_t i);
-/// The index owner[key] if it is below count; none for anything else. For documents in which only the meshes
+/// The index owner[key] if it is below count; none otherwise. Use it for documents in which only the meshes
 /// were checked.
 [[nodiscard]] std::optional<std::size_t> index_at(const Json& owner, const char* key,
                                                   std::size_t count = SIZE_MAX);

@@ -45,7 +45,7 @@ Transform from_parts(const JsonCursor& node) {
     return transform_of({move[0], move[1], move[2]}, turn, {scale[0], scale[1], scale[2]});
 }
 
-/// A node must have one parent. Some files name two; then the first applies, and `warn` is called.
+/// A node must have one parent. If a file names two, the first applies, and `warn` is called.
 void link_children(const JsonCursor& node, std::size_t index, std::vector<NodeFrame>& frames,
                    const Warn& warn) {
     const auto children = node.find("children");
@@ -268,7 +268,7 @@ bool may_have(const std::string& json, const char* name) {
     return json.find(name) != std::string::npos || json.find('\\') != std::string::npos;
 }
 
-/// The animated nodes of a document and all below them.
+/// The animated nodes of a document, and all their descendants.
 std::set<int> moving_nodes(const Document& document) {
     if (!may_have(document.json, "animations")) return {};
     Json json = gltf::parse_document(document.json);

@@ -24,8 +24,8 @@ struct NodeFrame {
 
 /// Takes a warning's id and message.
 using Warn = std::function<void(const char*, std::string)>;
-/// All nodes, by index. Throws malformed (E-NODES) for cycles, E-GLTF for invalid members. Warns (W-NODES)
-/// about nodes with two parents.
+/// All nodes, by index. Throws a malformed-input error (E-NODES) for cycles, E-GLTF for invalid members.
+/// Warns (W-NODES) about nodes with two parents.
 [[nodiscard]] std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
 /// The node indices, parents before children.
 [[nodiscard]] std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
@@ -37,18 +37,18 @@ using Warn = std::function<void(const char*, std::string)>;
 /// The nodes whose translation, rotation or scale an animation drives.
 [[nodiscard]] std::set<std::size_t> animated_nodes(const Json& document);
 
-/// A mesh with faces, or else lines, and its transform: one part of the scene. The writer builds the same
+/// A mesh with faces, otherwise lines, and its transform: a part of the scene. The writer builds the same
 /// list to find changes.
 struct Placement {
-    std::string name; ///< the node's, else the mesh's, unique in the document
-    int node = -1;    ///< -1 in a document without nodes: then each mesh is placed once, at the origin
+    std::string name; ///< the name of the node, otherwise of the mesh; unique in the document
+    int node = -1;    ///< -1 in a document without nodes, whose meshes are placed at the origin
     int mesh = -1;
     bool skinned = false;
-    Transform world; ///< of the part: the node's, or its largest instance's (stand_at_largest_instances)
-    std::size_t instances = 0;  ///< by EXT_mesh_gpu_instancing
+    Transform world; ///< the transform of the node, or of its largest instance (stand_at_largest_instances)
+    std::size_t instances = 0;  ///< number of instances by EXT_mesh_gpu_instancing
     Transform largest_instance; ///< relative to the node
 };
-/// One for each node with a mesh of triangles or lines, in node order.
+/// The placements, one for each node with a mesh of triangles or lines, in node order.
 [[nodiscard]] std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
 
 /// The materials of these placements; all materials if there are no placements, as in a document of points.
@@ -65,9 +65,9 @@ bool makes_points(const JsonCursor& primitive);
 /// True if a part consists of the mesh's lines: it has lines and no triangles.
 bool is_of_lines(const JsonCursor& mesh);
 
-/// The document of a scene that is written.
+/// The document on which a written scene is based.
 struct BaseDocument {
-    int index = -1; ///< in Scene::documents; -1: there is none
+    int index = -1; ///< index in Scene::documents; -1: no document
     Json json{};
 };
 /// The first document of the scene with nodes or meshes. Documents that only hold materials of another format

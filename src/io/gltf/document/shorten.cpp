@@ -31,7 +31,7 @@ void as_integer(Json& number) {
     if (std::abs(x) < most && x == std::floor(x)) number = static_cast<std::int64_t>(x);
 }
 
-/// The shortest text that is the same float32.
+/// Replaces the number by the shortest text that gives the same float32.
 void as_single(Json& number) {
     const auto x = static_cast<float>(number.get<double>());
     if (std::isfinite(x)) number = parse_real(fmt::format("{}", x)).value_or(number.get<double>());
@@ -89,13 +89,13 @@ void round_place(Json& node, const Tolerance& tolerance) {
     round(node["matrix"], 12, 15, tolerance.length);
 }
 
-/// Shortens the nodes' numbers to the digits that matter in a scene of this size. Nodes far from their
+/// Shortens nodes' numbers to the digits that matter in a scene of this size. Nodes far from their
 /// coordinate origin need more digits.
 void shorten_nodes(Json& document, const Box& bounds) {
     if (!document.contains("nodes")) return;
     const auto frames = node_frames(document);
     const double size = bounds.empty() ? 0 : bounds.diagonal();
-    constexpr double ratio = 1e-8;            // of the diagonal: a thousandth of a step of 17 bits
+    constexpr double ratio = 1e-8;            // times the diagonal: a thousandth of a step of 17 bits
     const auto stretch = [&](std::size_t n) { // scale of the translation's space
         return frames[n].parent < 0
                    ? 1.0

@@ -79,7 +79,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog&) {
     return scene;
 }
 
-/// All parts in world space as one triangle mesh.
+/// Joins all parts in world space into a triangle mesh.
 Mesh joined(const Scene& scene) {
     Mesh all;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
@@ -119,7 +119,7 @@ DracoColumn to_column(const Mesh& mesh, const Attribute& a) {
     return column;
 }
 
-/// Drops degenerate faces, unless they should be kept or are the only faces: then indices are stored.
+/// Drops degenerate faces. If they must be kept or are the only faces, indices are stored instead.
 void leave_degenerate(DracoInput& input, const DracoSettings& settings, Written& written) {
     const std::vector<bool> degenerate = degenerate_faces(input.triangles, input.point_vertex);
     const auto count = static_cast<std::size_t>(std::count(degenerate.begin(), degenerate.end(), true));

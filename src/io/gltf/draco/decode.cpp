@@ -120,7 +120,7 @@ std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
 /// components, or more points in the tree than in the header, which would overflow memory. The buffer is
 /// positioned after the number of points.
 void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
-    constexpr std::uint32_t most_numbers = 256; // of a point: memory grows with its square
+    constexpr std::uint32_t most_numbers = 256; // numbers per point; memory grows with the square
     const auto byte = [&] {
         std::uint8_t value = 0;
         if (!buffer.Decode(&value)) fail("it ends in its header");

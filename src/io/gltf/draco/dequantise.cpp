@@ -81,7 +81,7 @@ std::optional<Dequantised> dequantised(const ::draco::PointAttribute& attribute)
     const ::draco::AttributeTransformData* data = attribute.GetAttributeTransformData();
     if (!data) return {};
     if (attribute.data_type() != ::draco::DT_INT32 && attribute.data_type() != ::draco::DT_UINT32)
-        fail(); // the latter: points in a tree, at most 30 bits
+        fail(); // points in a tree have at most 30 bits
     if (data->transform_type() == ::draco::ATTRIBUTE_QUANTIZATION_TRANSFORM) return off_the_grid(attribute);
     if (data->transform_type() == ::draco::ATTRIBUTE_OCTAHEDRON_TRANSFORM)
         return off_the_octahedron(attribute);

@@ -13,16 +13,16 @@ namespace facetmill::io {
 /// data.
 void keep_quantised(::draco::Decoder& decoder);
 
-/// True if this kind of decoding lost types: attributes of these kinds that are integers in the file come out
-/// as 32-bit integers. Then the mesh must be decoded again, without it.
+/// True if keep_quantised lost types: integer attributes of these kinds become 32-bit integers. Then the
+/// mesh must be decoded again without keep_quantised.
 bool has_lost_types(const ::draco::PointCloud& mesh);
 
 struct Dequantised {
     int components;
-    std::vector<float> numbers; ///< [values of the attribute * components]
+    std::vector<float> numbers; ///< [values of the attribute * components] decoded numbers
 };
-/// Computes like the library without fused multiply-add; none for attributes that were not left quantised.
-/// Throws malformed when the transform data is invalid.
+/// Dequantises like the library without fused multiply-add. None for attributes that were not left
+/// quantised. Throws a malformed-input error when the transform data is invalid.
 [[nodiscard]] std::optional<Dequantised> dequantised(const ::draco::PointAttribute& attribute);
 
 } // namespace facetmill::io

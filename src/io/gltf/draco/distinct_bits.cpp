@@ -1,4 +1,4 @@
-// How many bits a position needs to keep vertices distinct.
+// Finds the number of bits that positions need to keep vertices distinct.
 
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/draco/quantise.hpp"
@@ -30,7 +30,7 @@ std::size_t count_positions(std::vector<Place>& places) {
     return count;
 }
 
-/// The grid step of each vertex as written, or the coordinates' own bits.
+/// The grid coordinates of each vertex as written. Without a grid, the bits of the float32 coordinates.
 std::vector<Place> places_of(const Mesh& mesh, const DracoInput& grid, std::optional<int> bits) {
     std::vector<Place> places(mesh.vertex_count());
     const float density = bits ? DracoGrid{{}, grid.range, *bits}.density() : 0;

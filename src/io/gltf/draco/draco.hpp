@@ -15,9 +15,9 @@ namespace facetmill::io {
 /// rounded.
 enum class DracoKind { position, normal, uv, colour, generic, identifier };
 
-/// One attribute of a compressed mesh: a tuple per point.
+/// An attribute of a compressed mesh, with a tuple per point.
 struct DracoColumn {
-    std::string name; ///< from the metadata; may be empty
+    std::string name; ///< the name in the metadata; may be empty
     DracoKind kind = DracoKind::generic;
     std::uint32_t id = 0; ///< the unique id that glTF refers to
     int components = 1;
@@ -36,7 +36,8 @@ struct DracoMesh {
 bool is_draco(Span bytes);
 /// The kinds of data that are accepted.
 enum class DracoContents { mesh, mesh_or_points };
-/// Decodes a mesh, or points without triangles. Throws malformed (E-DRACO), also for data of another kind.
+/// Decodes a mesh, or points without triangles. Throws a malformed-input error (E-DRACO), also for data of
+/// another kind.
 [[nodiscard]] DracoMesh decode_draco(Span bytes, DracoContents contents = DracoContents::mesh);
 
 /// Decoded contents by the SHA-256 of the bytes, so that equal bytes are decoded once.
@@ -55,24 +56,24 @@ class DracoDecodings : public Decodings {
 /// A mesh to compress.
 struct DracoInput {
     std::vector<float> vertices;      ///< x, y, z: per vertex, not per point, so that seams do not crack
-    std::vector<Index> point_vertex;  ///< [points]
+    std::vector<Index> point_vertex;  ///< [points] vertices
     std::vector<Index> triangles;     ///< three points each
     std::vector<DracoColumn> columns; ///< all except positions; ids are ignored
-    float origin[3] = {0, 0, 0};      ///< of the quantisation grid: the same for all primitives
-    float range = 1;                  ///< of a mesh, so that its primitives' common borders match
-    float extent = 1;                 ///< the length that the bits divide: at most the range
-    bool keep_order = false;          ///< for morph targets, which are not compressed and rely on the order
+    float origin[3] = {0, 0, 0};      ///< origin of the quantisation grid, the same for all primitives
+    float range = 1;         ///< range of the whole mesh, so that common borders of its primitives match
+    float extent = 1;        ///< the length that the bits divide; at most the range
+    bool keep_order = false; ///< needed for morph targets, which are not compressed and rely on the order
 };
 
 /// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to the library's stored
 /// precision.
 void set_draco_grid(const Mesh& mesh, DracoInput& input);
 
-/// Sets the grid step to 1, for integers at most 2^bits - 1 from the origin.
+/// Sets the grid step to 1. Coordinates must be integers at most 2^bits - 1 from the origin.
 void set_whole_steps(DracoInput& input, int bits);
 
-/// Widens a grid with this many bits until its steps have this length. It never narrows the grid, and does
-/// nothing for steps below the millionths that the library stores.
+/// Widens a grid with this many bits until its steps have this length. Never narrows the grid. Does nothing
+/// for steps below a millionth, the library's stored precision.
 void widen_draco_grid(DracoInput& input, double step, int bits);
 
 /// Marks faces that repeat a vertex, which Edgebreaker cannot store; three corners each.
@@ -82,20 +83,20 @@ void widen_draco_grid(DracoInput& input, double step, int bits);
 struct DracoOutput {
     Bytes bytes;
     std::shared_ptr<const DracoMesh> decoded; ///< as decoded; its positions may depend on the processor
-    DracoColumn positions;                    ///< on the grid: equal on every processor
+    DracoColumn positions;                    ///< positions on the grid, equal on every processor
     std::uint32_t position_id = 0;
     std::vector<std::uint32_t> ids; ///< in column order
     bool sequential = false;
 };
 
-/// Compresses with Edgebreaker. It uses the sequential method when the order matters, or when Edgebreaker
-/// would drop faces: it drops degenerate ones, so remove these before. Numbers are quantised identically on
-/// every processor. Throws stage (E-DRACO) when Draco cannot encode the mesh.
+/// Compresses with Edgebreaker. Uses the sequential method if the order matters, or if Edgebreaker would
+/// drop faces. It drops degenerate faces, so remove these first. Numbers are quantised identically on every
+/// processor. Throws a stage error (E-DRACO) when Draco cannot encode the mesh.
 [[nodiscard]] DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
 
-/// Compresses points without triangles, each a vertex, in a k-d tree, which changes their order. It uses the
-/// sequential method if the tree does not support the numbers of an attribute. Quantises like encode_draco,
-/// but stores normals as plain numbers. Throws stage (E-DRACO).
+/// Compresses points without triangles in a k-d tree, which changes their order. Each point is a vertex.
+/// Uses the sequential method if the tree does not support the numbers of an attribute. Quantises like
+/// encode_draco, but stores normals as plain numbers. Throws a stage error (E-DRACO).
 [[nodiscard]] Bytes encode_draco_points(const DracoInput& input, const DracoSettings& settings);
 
 } // namespace facetmill::io

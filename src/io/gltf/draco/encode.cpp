@@ -128,10 +128,10 @@ int bits_of(const DracoColumn& column, const DracoSettings& settings) {
 struct Settled {
     DracoInput input;
     DracoGrid positions;
-    std::vector<std::optional<DracoGrid>> grids; ///< of float columns except normals
+    std::vector<std::optional<DracoGrid>> grids; ///< grids of float columns except normals
 };
 
-constexpr int whole_bits = 24; // exact in float32
+constexpr int whole_bits = 24; // integers up to 24 bits are exact in float32
 
 bool are_whole(const std::vector<float>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(),
@@ -144,7 +144,7 @@ DracoGrid whole_numbers(int components) {
             whole_bits};
 }
 
-/// octahedral: quantises normals for the octahedral coding; else as plain numbers.
+/// octahedral: quantises normals for the octahedral coding, otherwise as plain numbers.
 Settled settle_all(const DracoInput& given, const DracoSettings& settings, bool octahedral) {
     Settled out{given,
                 {{given.origin[0], given.origin[1], given.origin[2]},

@@ -15,7 +15,7 @@ constexpr double decimals = 1e6; ///< precision of std::to_string
 /// The number after the library stores it as text.
 float by_text(float x) { return std::strtof(std::to_string(x).c_str(), nullptr); }
 
-/// The next storable number in a direction, x if it is one.
+/// The nearest storable number in a direction; x itself if it is storable.
 float storable(float x, double direction) {
     if (by_text(x) == x) return x;
     const double begin = static_cast<double>(x) * decimals;
@@ -25,7 +25,7 @@ float storable(float x, double direction) {
     }
 }
 
-/// Both roundings of the same expression. std::fma is exact on every processor.
+/// Whether both ways of rounding give the same step. std::fma is exact on every processor.
 bool is_settled(float difference, float density) {
     const float product = difference * density;
     return std::floor(product + 0.5F) == std::floor(std::fma(difference, density, 0.5F));
@@ -128,7 +128,7 @@ void settle_normals(std::vector<float>& normals, int bits) {
         float* n = &normals[3 * i];
         double sum = 0;
         for (int c = 0; c < 3; ++c) sum += std::abs(static_cast<double>(n[c]));
-        if (!(sum > 1e-6)) return; // Draco's own limit: such vectors point along x
+        if (!(sum > 1e-6)) return; // Draco's limit; Draco makes shorter vectors point along x
         const double scale = 1.0 / sum;
         const double scaled[3] = {n[0] * scale, n[1] * scale, n[2] * scale};
         if (!is_settled(scaled[0], centre) || !is_settled(scaled[1], centre))

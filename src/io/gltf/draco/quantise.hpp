@@ -1,8 +1,8 @@
 #pragma once
 // Prepares numbers so that Draco's quantisation gives the same integers on every processor. The library
-// rounds floor(x * steps + 1/2) in floating point. With fused multiply-add, that has one rounding instead of
-// two, so numbers near the middle between two steps can round either way. Such numbers are moved before the
-// library gets them.
+// rounds floor(x * steps + 1/2) in floating point. With fused multiply-add, this has one rounding instead of
+// two, so numbers near the middle between two steps can round either way. They are moved before the library
+// gets them.
 
 #include "io/gltf/draco/draco.hpp"
 
@@ -23,11 +23,11 @@ struct DracoGrid {
 /// that the text represents exactly: at most x, and at least x plus a millionth.
 [[nodiscard]] float storable_below(float x);
 [[nodiscard]] float storable_above(float x);
-/// The number of bits that makes steps of a storable grid as fine as `bits` makes steps of `range`, within a
-/// quarter. More bits are needed if the range is not large compared to six decimals. At most 30.
+/// The number of bits for which steps of a storable grid are as fine as steps of `range` with `bits` bits,
+/// within a quarter. More bits are needed if the range is not large compared to six decimals. At most 30.
 [[nodiscard]] int bits_as_fine(int bits, float range, float storable);
 
-/// The storable grid from the minimum of each component, over the largest extent.
+/// The storable grid that starts at the minimum of each component and covers the largest extent.
 [[nodiscard]] DracoGrid grid_of(const std::vector<float>& numbers, int components, int bits);
 
 /// x, or the nearest float32 that rounds to the same step with and without fused multiply-add.

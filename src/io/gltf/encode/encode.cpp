@@ -46,7 +46,7 @@ class Numbering {
     std::vector<Index> number_;
 };
 
-/// One table per primitive that has faces; with `shared`, all use the same wedges.
+/// A table for each primitive with faces. With `shared`, all tables use the same wedges.
 std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
     const std::size_t primitives = std::max<std::size_t>(mesh.primitives.size(), 1);
     std::vector<std::size_t> first(primitives + 1);
@@ -193,7 +193,7 @@ void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tab
     for (const auto& t : tables) all.insert(all.end(), t.indices.begin(), t.indices.end());
     const bool wide = needs_wide(tables[0].wedges.size());
     const std::size_t view = builder.add_view(index_bytes(all, wide), element_buffer);
-    std::map<std::string, std::size_t> accessors; // one per column, shared by the primitives
+    std::map<std::string, std::size_t> accessors; // an accessor per column, shared by the primitives
     const std::size_t position = add_positions(builder, mesh, tables[0].wedges, settings.keep_exact);
     const Json targets = add_targets(builder, mesh, columns, tables[0].wedges);
     std::size_t offset = 0;
@@ -299,7 +299,7 @@ bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
 
 namespace {
 
-/// All wedges as points.
+/// A primitive with all wedges as points.
 Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
                       const EncodeSettings& settings, Written& written) {
     Table table;

@@ -13,33 +13,34 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
-    double draco_step = 0;                     ///< for positions, if larger than the step of the bits
+    double draco_step = 0;                     ///< step for positions, if larger than the step of the bits
     QuantizeSettings quantize;                 ///< later rounding of attributes
     bool filters = false;                      ///< rounding will use meshopt's filters
     bool manifold = false;                     ///< write EXT_mesh_manifold
-    TriangleOrder order = TriangleOrder::keep; ///< not automatic
+    TriangleOrder order = TriangleOrder::keep; ///< must not be automatic
     bool keep_exact = false;                   ///< also stores double positions in Builder::exact_positions
-    bool whole_positions = false;              ///< see WriteSettings
+    bool whole_positions = false;              ///< see WriteSettings::whole_positions
     bool keep_features = true;                 ///< the document has the metadata that primitives refer to
     bool points = false;                       ///< writes meshes without faces as points
     ColumnSettings columns;
-    std::string name; ///< of the part, for messages
+    std::string name; ///< the part's name, for messages
     /// The document's index of a scene material; -1: none.
     std::function<int(Index)> material;
 };
 
 /// The contents of a mesh object; its accessors and views are already in the builder.
 struct EncodedMesh {
-    Json primitives = Json::array(); ///< if empty, the mesh is not written: a glTF mesh needs primitives
-    Json extensions;                 ///< of the mesh, or null
-    std::size_t targets = 0;         ///< morph targets per primitive
-    std::size_t dropped_faces = 0;   ///< degenerate ones, under Draco
-    VertexCacheUse cache;            ///< not under Draco
+    Json primitives =
+        Json::array();       ///< if empty, the mesh is not written, because a glTF mesh needs primitives
+    Json extensions;         ///< extensions of the mesh, or null
+    std::size_t targets = 0; ///< number of morph targets per primitive
+    std::size_t dropped_faces = 0; ///< degenerate faces that Draco dropped
+    VertexCacheUse cache;          ///< not set with Draco
 };
 
 /// Triangulates polygons. Positions become float32 with min and max; indices become uint16 if they fit, else
 /// uint32. Degenerate faces are kept, but Draco drops them unless it must keep them (W-FACES). Unused wedges
-/// are dropped. Throws stage (E-RANGE) when a position does not fit float32.
+/// are dropped. Throws a stage error (E-RANGE) when a position does not fit float32.
 [[nodiscard]] EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings,
                                       Written& written);
 
@@ -51,8 +52,8 @@ struct Table {
 };
 
 /// Splits tables so that Draco compresses them well. Degenerate faces would make it store indices, so they
-/// are dropped or moved to separate tables. A table with only such faces stays. With morph targets, indices
-/// are stored anyway.
+/// are dropped or moved to separate tables. A table with only degenerate faces stays. With morph targets,
+/// indices are stored anyway.
 [[nodiscard]] std::vector<Table> draco_tables(const Mesh& mesh, std::vector<Table> tables, bool targets,
                                               const EncodeSettings& settings, EncodedMesh& out);
 /// Writes the primitive's accessors and extension with Draco.
@@ -76,8 +77,8 @@ Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& 
 /// True if the primitive had the column, or the column is new.
 bool has_column(const Mesh& mesh, Index primitive, const Column& column);
 
-/// The EXT_mesh_manifold object of a mesh whose primitives share a table; null, with a warning, when the mesh
-/// is not manifold. indices: of all primitives together.
+/// The EXT_mesh_manifold object of a mesh whose primitives share a table; null, with a warning, when the
+/// mesh is not manifold. indices: the indices of all primitives together.
 [[nodiscard]] Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges,
                                       const std::vector<Index>& indices, std::size_t index_view,
                                       const Json& position, Written& written, const std::string& name);

@@ -11,7 +11,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// A table of the marked faces, or of the others.
+/// A table of the faces that are marked, or of the faces that are not.
 Table part_of(const Table& table, const std::vector<bool>& marked, bool wanted) {
     Table part{table.primitive, {}, {}};
     std::vector<Index> number(table.wedges.size(), none);
@@ -36,7 +36,7 @@ DracoKind kind_of(const std::string& semantic) {
 
 /// Stores positions per vertex, so that Draco treats seams as seams and not as gaps.
 void set_positions(const Mesh& mesh, const Table& table, DracoInput& input) {
-    std::vector<std::pair<Index, Index>> order; // vertex, point
+    std::vector<std::pair<Index, Index>> order; // pairs of vertex and point
     for (Index p = 0; p < table.wedges.size(); ++p)
         order.emplace_back(mesh.vertex_of_wedge(table.wedges[p]), p);
     std::sort(order.begin(), order.end());
@@ -84,7 +84,7 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
                             const std::vector<Column>& columns, const EncodeSettings& settings,
                             Json& primitive) {
     DracoInput input;
-    set_draco_grid(mesh, input); // of the whole mesh: points on common borders match
+    set_draco_grid(mesh, input); // uses the whole mesh, so that points on common borders match
     if (settings.whole_positions) set_whole_steps(input, settings.draco.position_bits);
     widen_draco_grid(input, settings.draco_step, settings.draco.position_bits);
     set_positions(mesh, table, input);

@@ -29,8 +29,9 @@ class Interleave {
 
     Builder& builder_;
     Json& json_;
-    std::vector<std::size_t> group_; ///< by accessor: another member of its group; itself for the last
-    std::vector<std::size_t> used_;  ///< accessors of attributes, in order of first use
+    std::vector<std::size_t>
+        group_; ///< [accessors] another member of the group; the last member refers to itself
+    std::vector<std::size_t> used_; ///< accessors of attributes, in order of first use
     std::map<std::size_t, std::size_t> new_accessor_;
 };
 

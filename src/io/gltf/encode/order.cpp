@@ -17,7 +17,7 @@ namespace facetmill::io::gltf {
 namespace {
 
 constexpr std::uint32_t cache_size = 16;
-constexpr std::size_t few_corners = 3 * 1000; ///< below this, starting a thread takes longer
+constexpr std::size_t few_corners = 3 * 1000; ///< below this size, starting a thread takes longer
 
 /// A FIFO cache of vertices.
 class VertexCache {
@@ -208,11 +208,11 @@ std::vector<Index> corners_along(const Table& table, const std::vector<Placed>& 
 /// A function of meshoptimizer.
 using Optimize = void (*)(Index* to, const Index* corners, std::size_t count, std::size_t vertices);
 
-/// Limits meshoptimizer's time: for each triangle that it adds, it examines all triangles of a vertex. Where
-/// thousands meet at a vertex, each gets a separate copy of the vertex during the call.
+/// Limits meshoptimizer's time: for each triangle that it adds, it examines all triangles of a vertex. If
+/// thousands of triangles meet at a vertex, each gets a separate copy of the vertex during the call.
 void order_by(Optimize optimize, std::vector<Index>& corners, std::size_t vertices) {
     constexpr Index many = 4096;
-    std::vector<Index> at(vertices), apart; // triangle count by vertex; copied vertices
+    std::vector<Index> at(vertices), apart; // triangle counts by vertex; copied vertices
     for (const Index v : corners) ++at[v];
     for (Index& v : corners)
         if (at[v] > many) {
@@ -281,7 +281,7 @@ void order_stretches_for_cache(std::vector<Index>& corners, std::size_t vertices
 /// Reorders triangles for vertex caches. Large meshes are processed in parallel chunks. Vertices at chunk
 /// borders (about one in a hundred) are transformed twice.
 void order_for_cache(const Mesh& mesh, Table& table, const Box& box) {
-    constexpr std::size_t stretch = 1 << 18; // triangles
+    constexpr std::size_t stretch = 1 << 18; // triangles in a chunk
     if (table.indices.size() / 3 < 2 * stretch) return order_for_cache(table.indices, table.wedges.size());
     table.indices = corners_along_curve(mesh, table, box);
     order_stretches_for_cache(table.indices, table.wedges.size(), 3 * stretch);
@@ -298,7 +298,7 @@ void mark_repeated(const std::vector<std::vector<Index>>& orders, std::size_t fi
 /// the given order, and from those strips. Meshes that are not large also try strips started along the axes,
 /// forward and backward, which saves about a percent.
 void order_for_size(const Mesh& mesh, Table& table, const Box& box) {
-    constexpr std::size_t large = 100000; // triangles
+    constexpr std::size_t large = 100000; // triangles in a large mesh
     const std::size_t vertices = table.wedges.size(), corners = table.indices.size();
     std::vector<std::vector<Index>> orders(4, table.indices);
     if (corners / 3 <= large) orders.resize(10);
@@ -342,7 +342,7 @@ void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder
         } else {
             order_for_cache(mesh, table, box);
             if (order == TriangleOrder::draw) order_groups(mesh, table);
-            for (int i = 0; order == TriangleOrder::strips && i < 2; ++i) // strips of strips
+            for (int i = 0; order == TriangleOrder::strips && i < 2; ++i) // makes strips of strips
                 order_in_strips(table.indices, table.wedges.size());
         }
         together.push_back(&table);

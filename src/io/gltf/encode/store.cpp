@@ -84,13 +84,14 @@ class Store {
     Json& json_;
     const QuantizeSettings& quantize_;
     bool filters_;
-    bool small_integers_ = false;                    ///< which only KHR_mesh_quantization allows
-    std::vector<std::vector<std::size_t>> nodes_;    ///< by mesh
-    std::map<std::size_t, int> bits_of_node_;        ///< position bits of its mesh, if on a grid
-    std::map<std::size_t, Lattice> lattice_of_node_; ///< of nodes whose parts have a lattice
+    bool small_integers_ =
+        false; ///< true if small integers are used, which only KHR_mesh_quantization allows
+    std::vector<std::vector<std::size_t>> nodes_;    ///< [meshes] nodes
+    std::map<std::size_t, int> bits_of_node_;        ///< position bits of the node's mesh, if on a grid
+    std::map<std::size_t, Lattice> lattice_of_node_; ///< lattices of nodes whose parts have one
     std::vector<NodeFrame> frames_;
     std::set<std::size_t> animated_, joints_;
-    std::map<std::string, std::size_t> made_; ///< by accessor and requested form
+    std::map<std::string, std::size_t> made_; ///< new accessors by old accessor and requested form
 };
 
 void Store::keep(const std::string& attribute, std::string why) {
@@ -99,7 +100,7 @@ void Store::keep(const std::string& attribute, std::string why) {
     if (std::find(all.begin(), all.end(), change) == all.end()) all.push_back(change);
 }
 
-/// True if the bytes are available: a buffer may be filled externally.
+/// True if the bytes are available. A buffer may be filled externally.
 bool Store::readable(std::size_t accessor) const {
     if (accessor >= count_of(json_, "accessors")) return false;
     const Json& a = json_["accessors"][accessor];
@@ -110,7 +111,7 @@ bool Store::floats(std::size_t accessor) const {
     return json_["accessors"][accessor]["componentType"] == int(float32);
 }
 
-/// True if meshopt compressed it in the source.
+/// True if meshopt compressed the accessor in the source.
 bool Store::compressed(std::size_t accessor) const {
     const Json& a = json_["accessors"][accessor];
     return a.contains("bufferView") &&
@@ -218,7 +219,7 @@ std::optional<PositionGrid> Store::grid_of(std::size_t mesh) {
     }
     if (all.empty()) return {};
     const Box& box = faces.empty() ? all : faces;
-    if (patch_.settings.whole_positions && box.longest_side() > 65535) return {}; // beyond 16 bits
+    if (patch_.settings.whole_positions && box.longest_side() > 65535) return {}; // positions beyond 16 bits
     const PositionGrid grid = patch_.settings.whole_positions ? whole_grid(box) : grid_in(mesh, box);
     if (!(grid.step > 0) || !(grid.step < HUGE_VAL)) return {};
     if (const char* why = reason_for_floats(mesh, grid)) {

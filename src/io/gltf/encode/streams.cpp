@@ -35,14 +35,15 @@ class Streams {
     Builder& builder_;
     Json& json_;
     bool filters_;
-    std::map<std::string, std::size_t> made_; ///< by accessor and purpose
+    std::map<std::string, std::size_t> made_; ///< new accessors by old accessor and purpose
 };
 
 /// Bits of animated translations, scales and morph weights over their largest extent: half a step is below a
 /// hundred-thousandth.
 constexpr int path_bits = 16;
 
-/// Numbers that round to 0 to 1 as plain 65535ths, if this is smaller than the stream of floats.
+/// Stores numbers that round to fractions from 0 to 1 as plain uint16, if this is smaller than the stream of
+/// floats.
 std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
     std::vector<std::uint16_t> all;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -51,7 +52,7 @@ std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
         all.push_back(static_cast<std::uint16_t>(x));
     }
     const Packing packing{"ATTRIBUTES", floats.filter, sizeof(float), all.size()};
-    constexpr std::size_t json_bytes = 160; // of the extension's object
+    constexpr std::size_t json_bytes = 160; // bytes of JSON for the extension's object
     const Span bytes = std::as_bytes(std::span(all));
     if (encode_meshopt(floats.bytes, packing, 0).size() + json_bytes <= bytes.size()) return {};
     return Stored{
@@ -111,7 +112,7 @@ void Streams::store(Json& reference, const std::string& path, int exponent) {
 }
 
 void Streams::store_animation(Json& animation) {
-    std::map<std::size_t, std::string> paths; // by sampler; empty if channels differ
+    std::map<std::size_t, std::string> paths; // animated property by sampler; empty if channels differ
     for (const Json& channel : animation["channels"]) {
         const std::string path = channel["target"].value("path", "");
         const auto sampler = channel["sampler"].get<std::size_t>();
@@ -169,7 +170,7 @@ void Streams::store_instances(Json& attributes, bool on_grid) {
                 for (int c = 0; c < 3; ++c)
                     if (const double s = std::abs(scales.value(i, c)); s > 0) least = std::min(least, s);
         }
-        constexpr int bits = 16; // at most, per position
+        constexpr int bits = 16; // bits per position, at most
         if (least < HUGE_VAL) {
             step = std::ilogb(least) - 1;
             of_scale = step - bits;

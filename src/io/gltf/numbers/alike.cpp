@@ -79,7 +79,7 @@ void merge_alike(const Mesh& mesh, Table& table, const std::vector<Column>& colu
             number[i] = static_cast<Index>(kept.size());
             kept.push_back(table.wedges[i]);
         }
-        number[i] = number[first[i]]; // the first is the lowest
+        number[i] = number[first[i]]; // the first wedge has the lowest number
     }
     if (kept.size() == count) return;
     table.wedges = std::move(kept);

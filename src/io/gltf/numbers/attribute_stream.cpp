@@ -69,7 +69,7 @@ std::uint32_t next_value(std::uint32_t from, std::uint32_t d, unsigned mode, uns
 
 // --- encode
 
-using Group = const std::uint8_t*; // 16 differences
+using Group = const std::uint8_t*; // a group has 16 differences
 
 /// The size of a group with this many bits; larger differences follow as whole bytes.
 std::size_t size_of_group(Group group, int bits) {
@@ -161,7 +161,7 @@ std::uint32_t channel_at(Span bytes, std::size_t element, std::size_t stride, st
 
 /// One channel of all elements: its bytes by block, with the controls of the four positions.
 struct CodedChannel {
-    unsigned mode = of_bytes; ///< with the rotation, as in the tail
+    unsigned mode = of_bytes; ///< includes the rotation, as in the stream's tail
     std::vector<std::array<unsigned, channel_size>> controls;
     std::vector<Bytes> blocks;
     std::size_t size = 0;
@@ -248,7 +248,7 @@ std::vector<std::uint8_t> take_plane(Rest& rest, unsigned control, std::size_t c
     return out;
 }
 
-/// Decodes one block; `before` is the previous element, and becomes the block's last.
+/// Decodes a block. `before` is the previous element, and becomes the block's last element.
 void take_block(Rest& rest, Span modes, std::size_t count, std::vector<std::uint32_t>& before,
                 std::byte* out) {
     const std::size_t channels = modes.size(), stride = channels * channel_size;
@@ -277,7 +277,7 @@ std::size_t tail_size(std::size_t stride) { return std::max(least_tail, stride +
 bool is_attribute_stream_1(Span stream) { return !stream.empty() && stream[0] == header_1; }
 
 std::size_t most_elements_in_stream(std::size_t bytes, std::size_t stride) {
-    // A block has at least its controls.
+    // A block has at least its control bytes.
     return (bytes / (stride / channel_size) + 1) * block_elements(stride);
 }
 
@@ -288,7 +288,7 @@ Bytes encode_attribute_stream(Span bytes, std::size_t count, std::size_t stride)
         channels,
         [&](std::size_t c) {
             best[c] = coded(bytes, count, stride, c, of_bytes);
-            constexpr unsigned sign_last = of_bits | 1 << 4; // for floats that change their sign often
+            constexpr unsigned sign_last = of_bits | 1 << 4; // useful for floats that change their sign often
             for (const unsigned mode : {unsigned{of_words}, unsigned{of_bits}, sign_last})
                 if (auto other = coded(bytes, count, stride, c, mode); other.size < best[c].size)
                     best[c] = std::move(other);

@@ -31,7 +31,7 @@ bool standard(std::string_view name, int components) {
     return (numbered(name, "JOINTS_") || numbered(name, "WEIGHTS_")) && components == 4;
 }
 
-/// "TARGET_3_NORMAL" -> 3, "NORMAL"; a target of -1 for other names.
+/// Splits "TARGET_3_NORMAL" into 3 and "NORMAL". The target is -1 for other names.
 std::pair<int, std::string> target_of(const Attribute& a) {
     int number = -1;
     const char* begin = a.name.data() + 7;
@@ -104,7 +104,7 @@ void make_unit(Attribute& a) {
         const Vec3 v{n[0], n[1], n[2]};
         const double l = length(v);
         const Vec3 unit = l > 0 && l < HUGE_VAL ? v / l : Vec3{0, 0, 1};
-        // Values that are already good stay unchanged.
+        // Vectors that are already of unit length stay unchanged.
         if (!(l > 0.9999995 && l < 1.0000005))
             for (std::size_t c = 0; c < 3; ++c) n[c] = static_cast<float>(unit[c]);
         if (width == 4) n[3] = n[3] < 0 ? -1.0f : 1.0f;

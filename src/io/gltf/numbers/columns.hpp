@@ -5,7 +5,7 @@
 
 namespace facetmill::io::gltf {
 
-/// An attribute ready to be written: of the vertex or the wedge domain.
+/// An attribute of vertices or wedges, ready to be written.
 struct Column {
     std::string semantic; ///< "TEXCOORD_0", "_quality"
     int target = -1;      ///< its morph target, or -1
@@ -13,7 +13,7 @@ struct Column {
 };
 
 struct ColumnSettings {
-    bool quantised = false; ///< KHR_mesh_quantization is already used: small integers may stay
+    bool quantised = false; ///< KHR_mesh_quantization is already used, so small integers may stay
     bool skinned = true;    ///< keep joints and weights
 };
 

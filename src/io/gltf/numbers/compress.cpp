@@ -18,8 +18,8 @@ namespace {
 
 /// The accessors used as indices, and their kind.
 struct IndexUse {
-    bool triangles = true;      ///< only lists of triangles
-    bool corners_count = false; ///< something refers to corners by index
+    bool triangles = true;      ///< true if used only for lists of triangles
+    bool corners_count = false; ///< true if something refers to corners by index
 };
 
 std::map<std::size_t, IndexUse> index_uses(const Json& document) {
@@ -141,7 +141,8 @@ std::vector<unsigned> indices_in(Span bytes, std::size_t size) {
     return indices;
 }
 
-/// The library's stream versions are global variables: set once, to values that both extensions support.
+/// Sets the library's stream versions, which are global variables, once to values that both extensions
+/// support.
 void choose_versions() {
     static const bool chosen = [] {
         meshopt_encodeVertexVersion(0);

@@ -17,13 +17,13 @@ struct Packing {
     std::string kind{}; ///< non-empty: views of the same kind can be merged
 };
 
-/// [views] how each view can be compressed: only views used just by accessors of the same stride. TRIANGLES
-/// may rotate a triangle's corners, so it is not used if EXT_mesh_manifold counts corners.
+/// [views] How each view can be compressed. Requires that only accessors of the same stride use the view.
+/// TRIANGLES may rotate a triangle's corners, so it is not used if EXT_mesh_manifold counts corners.
 [[nodiscard]] std::vector<std::optional<Packing>> packings(const Json& document,
                                                            const std::map<std::size_t, std::string>& filters);
 
-/// The view's bytes as a stream. Attributes use this version, 0 or 1 (only KHR_meshopt_compression has 1);
-/// indices use version 1.
+/// Compresses the view's bytes to a stream. Attributes use this version: 0, or 1 (only in
+/// KHR_meshopt_compression). Indices use version 1.
 [[nodiscard]] Bytes encode_meshopt(Span bytes, const Packing& packing, int version);
 
 /// The view's extension object, under either name; null if it has none.

@@ -19,9 +19,9 @@ struct Compressed {
     std::string mode, filter;
 };
 
-/// The decoders check their input, but only assert their preconditions, and count decides the allocated
-/// memory: both are checked here. A byte of input gives at most 64 bytes of output (attributes; 1024 in
-/// version 1), a triangle or an index.
+/// Checks the decoders' preconditions, which they only assert, and count, which decides the allocated
+/// memory. A byte of input gives at most 64 bytes of output (attributes; 1024 in version 1), a triangle or
+/// an index.
 void check(const JsonCursor& place, const Compressed& c) {
     const auto refuse = [&](const std::string& why) { place.fail(why, "E-MESHOPT"); };
     const bool attributes = c.mode == "ATTRIBUTES", triangles = c.mode == "TRIANGLES",
@@ -52,7 +52,7 @@ void check(const JsonCursor& place, const Compressed& c) {
 }
 
 /// Decodes KHR_meshopt_compression's filter COLOR to red, green, blue and alpha. The input is luma and two
-/// chrominances of K bits. The alpha has one bit less, below a bit that gives K.
+/// chrominances of K bits. Alpha has one bit less, below a bit that marks K.
 template <class Unsigned>
 void decode_colours(Bytes& bytes) {
     using Signed = std::make_signed_t<Unsigned>;

@@ -16,7 +16,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// To nearest, halves away from zero.
+/// Rounds to nearest, and halves away from zero.
 double to_nearest(double x) { return x < 0 ? -std::floor(0.5 - x) : std::floor(x + 0.5); }
 
 /// True if of(i) is true for all i below count.
@@ -116,7 +116,7 @@ void share_out(const std::vector<double>& weights, std::uint32_t whole, std::vec
     double sum = 0;
     for (const double w : weights) sum += w;
     if (!(sum > 0) || !(sum < HUGE_VAL)) return;
-    std::vector<std::pair<double, std::size_t>> rest; // remainders, negated, so that the largest comes first
+    std::vector<std::pair<double, std::size_t>> rest; // negated remainders, so that the largest comes first
     std::uint32_t given = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const double exact = weights[i] / sum * whole;
@@ -172,7 +172,7 @@ StoredInfluences influences_as(const Influences& all) {
 double short_above(double x) {
     const auto digits = [](double y) { return parse_real(fmt::format("{:.7e}", y)).value_or(y); };
     const double near = digits(x);
-    return near >= x ? near : digits(x * (1 + 1e-7)); // next larger number in the last digit
+    return near >= x ? near : digits(x * (1 + 1e-7)); // otherwise the next larger number in the last digit
 }
 
 double short_near(double x, double step) {
@@ -262,7 +262,7 @@ std::optional<Stored> quaternions(const Attribute& a) {
             sum += q[c] * q[c];
         }
         const double norm = std::sqrt(sum);
-        constexpr double tolerance = 1e-3; // of unit length: otherwise it is not a rotation
+        constexpr double tolerance = 1e-3; // rotations have unit length within this tolerance
         if (!(std::abs(norm - 1) <= tolerance)) return {};
         for (double& x : q) x /= norm;
         const auto four = without_largest(q);

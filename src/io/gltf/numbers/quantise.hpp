@@ -18,16 +18,16 @@ struct PositionGrid {
     int bits = 16;
 };
 
-/// The smallest number at or above x > 0 with 8 digits, so that its text is short.
+/// The smallest number with 8 digits that is at least x > 0. Its text is short.
 [[nodiscard]] double short_above(double x);
 /// A number within a hundredth of the step of x with as few decimals as possible.
 [[nodiscard]] double short_near(double x, double step);
 
 /// Vertex data ready for a separate view.
 struct Stored {
-    Json accessor; ///< without its view
+    Json accessor; ///< the accessor without its view
     Bytes bytes;
-    std::size_t stride = 0; ///< 0: elements without gaps
+    std::size_t stride = 0; ///< 0: no gaps between elements
     std::string filter{};   ///< the meshopt filter that decodes the bytes to the accessor's type; empty: none
 };
 
@@ -53,10 +53,10 @@ struct Stored {
 /// Numbers for meshopt's filter EXPONENTIAL with a common exponent: multiples of 2^exponent, with an error of
 /// at most half of that. None if a number needs more than 24 bits.
 [[nodiscard]] std::optional<Stored> exponential(const Attribute& a, int exponent, bool bounds);
-/// The exponent at which the largest number uses all 24 bits: no error exceeds float32's step at the largest
-/// number.
+/// The exponent at which the largest number uses all 24 bits. So no error exceeds the float32 step at the
+/// largest number.
 [[nodiscard]] int finest_exponent(const Attribute& a);
-/// The exponent of the largest power of two not above the largest component extent / 2^bits.
+/// The exponent of the largest power of two that is at most the largest component extent / 2^bits.
 [[nodiscard]] int exponent_of_range(const Attribute& a, int bits);
 
 /// Weights and joints of a mesh by set. The largest weights of a vertex come first, because neighbours are

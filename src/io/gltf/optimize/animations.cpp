@@ -48,7 +48,8 @@ bool has_additions(const Json& object) { return object.contains("extensions") ||
 double end_of(const Json& document, const Json& animation, const Json& channel) {
     const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
     const Json& times = document["accessors"][sampler["input"].get<std::size_t>()];
-    return times.contains("max") ? times["max"][0].get<double>() : HUGE_VAL; // unknown: it may end last
+    return times.contains("max") ? times["max"][0].get<double>()
+                                 : HUGE_VAL; // if unknown, the track may end last
 }
 
 /// Drops the resting channels and their samplers. The channel that ends last stays, so that the animation
@@ -90,7 +91,7 @@ std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
     std::vector<Bytes> buffers = document_.buffers;
     buffers.insert(buffers.end(), added_.begin(), added_.end());
     Source source(json_, buffers);
-    std::map<std::string, int> animations_of; // by animated property
+    std::map<std::string, int> animations_of; // number of animations per property
     for (std::size_t a = 0; a < count_of(json_, "animations"); ++a) {
         std::set<std::string> here;
         for (const Json& channel : json_["animations"][a]["channels"]) here.insert(target_of(channel));
@@ -110,7 +111,8 @@ std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
         if (rest.empty()) return false;
         const Json reference = sampler["output"];
         const Accessor a = accessor(source, JsonCursor(reference, "output"));
-        constexpr double ratio = 1e-5; // for scales and unit quaternions: below any rounding of positions
+        constexpr double ratio =
+            1e-5; // tolerance for scales and unit quaternions, below any rounding of positions
         return rests({"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)}, rest,
                      path == "translation" ? length : ratio);
     };

@@ -141,8 +141,8 @@ void drop_children(Json& owner, const char* key, const std::set<std::size_t>& de
 
 bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
 
-/// Nodes with more than a transform, nodes outside the scene (nothing may enter or leave these), and their
-/// descendants.
+/// Nodes with more than a transform, nodes outside the scene (their children must not change), and the
+/// descendants of both.
 std::set<std::size_t> bound_nodes(Json& document) {
     std::set<std::size_t> bound;
     const auto frames = node_frames(document);
@@ -287,7 +287,8 @@ std::size_t DocumentOptimizer::erase(const char* list, References references,
     return dead.size();
 }
 
-/// The emptied nodes without other uses, then their ancestors; removes each from its parent and its scene.
+/// Finds the emptied nodes without other uses, then their ancestors. Removes each from its parent and its
+/// scene.
 std::set<std::size_t> DocumentOptimizer::empty_nodes(const std::set<std::size_t>& emptied) {
     std::set<std::size_t> named, dead;
     visit_named_nodes(json_, [&](Json& r) { named.insert(r.get<std::size_t>()); });
@@ -360,7 +361,7 @@ std::shared_ptr<const Document> DocumentOptimizer::finish(const std::shared_ptr<
 
 std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents) {
     std::vector<bool> bound = animated_parts(scene);
-    std::vector<std::set<std::size_t>> nodes; // by document: bound nodes
+    std::vector<std::set<std::size_t>> nodes; // [documents] bound nodes
     std::vector<std::set<std::size_t>> meshes;
     for (DocumentOptimizer& document : documents) {
         nodes.push_back(bound_nodes(document.json_));

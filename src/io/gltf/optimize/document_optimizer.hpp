@@ -25,8 +25,8 @@ struct TidyCounts {
 struct TidyRequest {
     std::set<std::size_t> emptied;                   ///< nodes whose meshes were moved elsewhere
     std::map<std::size_t, std::size_t> equal_meshes; ///< meshes equal to another mesh, and that mesh
-    std::set<std::size_t> meshes, materials;         ///< used by parts
-    bool all = true; ///< also items that were unused from the start; else only newly unused items
+    std::set<std::size_t> meshes, materials;         ///< meshes and materials that parts use
+    bool all = true; ///< erases items that were unused from the start too, not only newly unused items
 };
 
 /// By the old number: the new number, or -1 for removed items.
@@ -50,7 +50,8 @@ struct MaterialNeeds {
     std::optional<int> normal_map_uvs{}; ///< set used by the normal map, if any
 };
 
-/// A document being optimised. Throws malformed when it is not JSON or its lists are not arrays.
+/// A document being optimised. Throws a malformed-input error when it is not JSON or its lists are not
+/// arrays.
 class DocumentOptimizer {
   public:
     explicit DocumentOptimizer(const Document& document);
@@ -60,10 +61,10 @@ class DocumentOptimizer {
     /// Does nothing if KHR_materials_variants refers to materials.
     std::vector<std::size_t> merge_equal(bool keep_names);
 
-    /// Erases unused items: meshes, materials, textures, samplers, images, accessors and their views. It also
-    /// erases emptied nodes, and ancestors without other contents. Joints, animated nodes, and nodes with a
-    /// camera, extensions or extras stay. If an extension may refer to items in an unknown way, nothing is
-    /// erased (numbers_are_known).
+    /// Erases unused items: meshes, materials, textures, samplers, images, accessors and their views. It
+    /// also erases emptied nodes, and ancestors without other contents. Joints, animated nodes, and nodes
+    /// with a camera, extensions or extras stay. Erases nothing if an extension may refer to items in an
+    /// unknown way (numbers_are_known).
     TidyNumbers erase_unused(const TidyRequest& request);
 
     /// Merges equal accessors, by their bytes. Returns the number of duplicates.
@@ -79,8 +80,8 @@ class DocumentOptimizer {
     /// that were not at the top.
     std::size_t flatten(const std::set<std::size_t>& nodes, std::set<std::size_t>& emptied);
 
-    /// Creates one node at the top of the first node's scene, with its mesh instanced at the world transforms
-    /// of all these nodes (EXT_mesh_gpu_instancing, required). Returns the node and the float32 transform of
+    /// Creates a node at the top of the first node's scene. It instances its mesh at the world transforms of
+    /// all these nodes (EXT_mesh_gpu_instancing, required). Returns the node and the float32 transform of
     /// the largest instance. None if a transform is not a translation, a rotation and scales (within 1e-6).
     using NodeTransform = std::pair<std::size_t, Transform>;
     std::optional<NodeTransform> instance(const std::vector<NodeTransform>& nodes);
@@ -122,10 +123,10 @@ class DocumentOptimizer {
     TidyCounts erased_;
 };
 
-/// [parts] true if the node is more than a transform for its mesh. That means it is skinned, animated or a
-/// joint, or has morph targets or a camera. Extras or extensions of the node, its mesh or an ancestor count
-/// too. So do several scenes, and extensions that may refer to nodes by number. documents: of the scene,
-/// unchanged.
+/// [parts] True if the node is more than a transform for its mesh: it is skinned, animated or a joint, or
+/// has morph targets or a camera. Extras or extensions of the node, its mesh or an ancestor also count. So
+/// do several scenes, and extensions that may refer to nodes by number. documents: the documents of the
+/// scene, unchanged.
 [[nodiscard]] std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents);
 
 } // namespace facetmill::io

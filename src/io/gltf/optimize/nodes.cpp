@@ -1,4 +1,4 @@
-// Moves nodes of a document to the top of their scene, and merges many into one.
+// Moves nodes of a document to the top of their scene, and replaces many nodes by an instanced node.
 
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/document/accessor.hpp"
@@ -37,10 +37,10 @@ std::array<double, 4> quaternion_of(const Vec3& x, const Vec3& y, const Vec3& z)
     return all[most];
 }
 
-/// None for a transform that shears, flattens or mirrors: renderers flip the faces of mirrored nodes, but not
-/// of mirrored instances.
+/// None for a transform that shears, flattens or mirrors. Renderers flip the faces of mirrored nodes, but
+/// not of mirrored instances.
 std::optional<Stance> stance_of(const Transform& t) {
-    constexpr double tolerable = 1e-6; // cosine of the angle between two axes
+    constexpr double tolerable = 1e-6; // largest cosine of the angle between two axes
     Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
     Stance stance{t.point({0, 0, 0}), {}, {}};
     for (std::size_t i = 0; i < 3; ++i) {

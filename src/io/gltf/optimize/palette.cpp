@@ -1,4 +1,4 @@
-// The vertex data that a document's materials need, and plain materials as pixels of a palette.
+// Finds the vertex data that a document's materials need, and makes palettes of plain materials.
 
 #include "geometry/render/srgb.hpp"
 #include "io/gltf/document/json.hpp"
@@ -113,7 +113,7 @@ std::optional<PlainLook> DocumentOptimizer::plain_look(std::size_t material) con
 std::size_t DocumentOptimizer::add_palette(const std::vector<PlainLook>& looks) {
     Json material = parse_document(looks.front().kind);
     material["name"] = "palette";
-    const std::size_t sampler = // pixels without interpolation
+    const std::size_t sampler = // samples pixels without interpolation
         add("samplers", {{"magFilter", 9728}, {"minFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33071}});
     const auto texture = [&](const char* name, PixelOf pixel_of) {
         Pixels pixels{looks.size(), 1, {}, false};

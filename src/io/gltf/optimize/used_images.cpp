@@ -39,7 +39,7 @@ class ImagesOfMaterial {
         if (source != owner.end() && source->is_number_unsigned()) images_.insert(source->get<std::size_t>());
     }
 
-    /// An empty object if there is none.
+    /// The texture, or an empty object.
     const Json& texture_of(const Json& reference) const {
         static const Json nothing = Json::object();
         const auto all = document_.find("textures"), index = reference.find("index");
@@ -110,7 +110,7 @@ LibraryImageNames library_images(const std::filesystem::path& file,
             sort(image.index, image.relative);
         }
         for (const auto& name : used_names) names.idle.erase(name);
-    } catch (const Error&) { // nor will it be written
+    } catch (const Error&) { // the image will not be written either
     }
     return names;
 }

@@ -11,13 +11,13 @@
 
 namespace facetmill::io::gltf {
 
-/// True if the vertex attribute of that name contains feature numbers: _FEATURE_ID_0, and _BATCHID of older
+/// True if the vertex attribute with this name contains feature numbers: _FEATURE_ID_0, or _BATCHID in older
 /// tiles. Such numbers are never interpolated.
 bool is_feature_id(std::string_view semantic);
 
-/// The part of such an extension that is still valid for a primitive whose mesh has changed; null if nothing
-/// is, or for another extension. has: returns whether the primitive has a vertex attribute. Adds descriptions
-/// of invalid parts to lost.
+/// The part of such an extension that is still valid for a primitive whose mesh has changed. Null if no part
+/// is valid, or for other extensions. has: returns whether the primitive has a vertex attribute. Adds
+/// descriptions of invalid parts to lost.
 [[nodiscard]] Json features_that_hold(const std::string& extension, const Json& value,
                                       const std::function<bool(const std::string&)>& has,
                                       std::vector<std::string>& lost);

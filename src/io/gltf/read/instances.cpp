@@ -128,7 +128,7 @@ std::optional<Attribute> translations_on_grid(const Instances& given, const Posi
 }
 
 void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog& log) {
-    constexpr double bytes_of_node = 2000; // including its part
+    constexpr double bytes_of_node = 2000; // memory of a node, including its part
     const Json original = document;
     Source source(original, buffers);
     double needed = 0;
@@ -187,7 +187,7 @@ void for_each_instanced(
         if (document.json.find(gltf::instancing_extension) == std::string::npos) continue;
         const Json json = gltf::parse_document(document.json);
         gltf::Source source(json, document.buffers);
-        std::map<int, gltf::Instances> known; // by node
+        std::map<int, gltf::Instances> known; // instances by node
         for (std::size_t i = 0; i < scene.parts.size(); ++i) {
             const Part& part = scene.parts[i];
             if (part.document != static_cast<int>(d) || part.node < 0) continue;
@@ -229,7 +229,7 @@ void for_each_place_of_instances(
     constexpr std::size_t most = 65536;
     for_each_instanced(scene, [&](std::size_t i, const Transform& largest, const gltf::Instances& all) {
         const auto back = inverse(largest);
-        if (!back) return; // never for a largest instance
+        if (!back) return; // cannot happen for a largest instance
         const Transform node = scene.parts[i].transform * *back;
         const std::size_t step = (all.count + most - 1) / most;
         for (std::size_t k = 0; k < all.count; k += step)

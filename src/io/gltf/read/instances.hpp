@@ -19,12 +19,13 @@ struct Instances {
 
     Transform place(std::size_t i) const;
     /// The first instance with the greatest scale, so that an error measured there is a bound for all.
-    /// Instances without volume are ignored; the identity if all are.
+    /// Instances without volume are ignored. The identity if all instances are ignored.
     Transform largest_place() const;
 };
 
-/// None for a node that places its mesh once: without the extension or its attributes, without a mesh, or
-/// with a skin. Throws malformed (E-GLTF) for attributes of different counts or types.
+/// The instances of a node. None for a node that places its mesh once: without the extension or its
+/// attributes, without a mesh, or with a skin. Throws a malformed-input error (E-GLTF) for attributes of
+/// different counts or types.
 [[nodiscard]] std::optional<Instances> instances_of(Source& source, std::size_t node);
 
 /// Moves parts of nodes with instances to their largest instance.
@@ -36,7 +37,8 @@ void stand_at_largest_instances(Source& source, const std::vector<NodeFrame>& fr
 [[nodiscard]] std::optional<Attribute> translations_on_grid(const Instances& given, const PositionGrid& grid);
 
 /// Replaces each instance of EXT_mesh_gpu_instancing by a child node with the mesh. Other attributes of
-/// instances are dropped with a warning (W-INSTANCING). Throws malformed (E-GLTF), limit (E-MEMORY).
+/// instances are dropped with a warning (W-INSTANCING). Throws a malformed-input error (E-GLTF), a limit
+/// error (E-MEMORY).
 void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog& log);
 
 } // namespace facetmill::io::gltf

@@ -145,7 +145,7 @@ void animate_beside(Json& document, const Beside& beside, std::size_t nodes) {
     }
 }
 
-/// Throws malformed when a scene refers to a missing node.
+/// Throws a malformed-input error when a scene refers to a missing node.
 void check_roots(const Json& document, std::size_t nodes) {
     for (std::size_t s = 0; s < count_of(document, "scenes"); ++s)
         if (const auto roots = item(document, "scenes", s).find("nodes"))

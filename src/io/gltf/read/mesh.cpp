@@ -18,7 +18,7 @@ namespace {
 
 /// Vertices with the same accessors, shared by one or more primitives.
 struct Block {
-    std::size_t first = 0, count = 0; // wedges
+    std::size_t first = 0, count = 0; // range of wedges
     std::vector<Vec3> positions;
     std::vector<Attribute> attributes;
 };
@@ -29,12 +29,12 @@ struct Merge {
     JsonCursor mesh_place;
     std::size_t max_vertices;
     std::vector<Block> blocks;
-    std::map<std::string, std::size_t> block_of; // by the accessors' indices, as text
+    std::map<std::string, std::size_t> block_of; // blocks by their accessors' indices, as text
     std::size_t wedges = 0;
     DecodedMesh out;
     std::vector<Index> face_primitive;
-    double bytes =
-        0; ///< of all blocks and corners: few bytes of JSON may refer to the same accessor repeatedly
+    double bytes = 0; ///< memory of all blocks and corners, because few bytes of JSON may refer to the same
+                      ///< accessor repeatedly
 
     void need(double more) {
         bytes += more;
@@ -96,11 +96,11 @@ void add_vertices(Merge& merge, Block& block) {
     merge.wedges += block.count;
     double bytes = sizeof(Vec3);
     for (const auto& a : block.attributes) bytes += a.components * size_of(component_type_of(a.data));
-    merge.need(2 * bytes * static_cast<double>(block.count)); // once in the block, once in the mesh
+    merge.need(2 * bytes * static_cast<double>(block.count)); // counted twice: in the block and in the mesh
     merge.blocks.push_back(std::move(block));
 }
 
-/// The vertices of a plain primitive; shared ones are read once.
+/// The vertices of an uncompressed primitive. Shared vertices are read once.
 std::size_t plain_block(Merge& merge, const JsonCursor& primitive) {
     const JsonCursor attributes = primitive.at("attributes");
     const auto targets = primitive.find("targets");
@@ -111,7 +111,7 @@ std::size_t plain_block(Merge& merge, const JsonCursor& primitive) {
     const Accessor positions = accessor(merge.source, attributes.at("POSITION"));
     if (positions.components != 3) positions.place.fail("POSITION must be VEC3");
     block.count = positions.count;
-    if (block.count > merge.max_vertices) add_vertices(merge, block); // throws
+    if (block.count > merge.max_vertices) add_vertices(merge, block); // throws an error
     block.positions = to_vectors(to_attribute(merge, "POSITION", positions, block.count));
     for (const auto& [name, reference] : attributes.json().items())
         if (name != "POSITION")
@@ -192,7 +192,7 @@ std::size_t draco_block(Merge& merge, const JsonCursor& primitive, const JsonCur
     return merge.blocks.size() - 1;
 }
 
-/// Strips and fans as a list. The degenerate triangles that connect strips are dropped.
+/// Converts strips and fans to a list, without the degenerate triangles that connect strips.
 std::vector<Index> as_list(const std::vector<Index>& indices, std::uint64_t mode) {
     std::vector<Index> list;
     for (std::size_t i = 2; i < indices.size(); ++i) {
@@ -210,7 +210,7 @@ Primitive primitive_info(const Merge& merge, const JsonCursor& primitive, const 
     if (const auto material = primitive.find("material"))
         info.material =
             static_cast<Index>(material->index(count_of(merge.source.json(), "materials"), "material"));
-    info.attributes.push_back("POSITION"); // because an empty list would mean all
+    info.attributes.push_back("POSITION"); // needed because an empty list would mean all attributes
     for (const auto& a : block.attributes) info.attributes.push_back(a.name);
     Json kept;
     if (const auto extras = primitive.find("extras")) kept["extras"] = extras->json();
@@ -256,7 +256,7 @@ void add_primitive(Merge& merge, const JsonCursor& primitive) {
         mesh.corners.resize(before + indices.size());
         parallel_for(indices.size(), [&](std::size_t i) { mesh.corners[before + i] = first + indices[i]; });
     }
-    if (!mesh.primitives.empty()) { // a single one does not need it
+    if (!mesh.primitives.empty()) { // a single primitive does not need it
         merge.face_primitive.resize(before / 3, 0);
         merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
     }
@@ -283,7 +283,7 @@ void add_line_primitive(Merge& merge, const JsonCursor& primitive) {
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }
 
-/// The attribute of that name for the whole mesh, in a type that fits the values of all blocks.
+/// The attribute with this name for the whole mesh, in a type that fits the values of all blocks.
 Attribute& common_attribute(Mesh& mesh, const Attribute& part) {
     if (Attribute* known = mesh.find(part.name, Domain::wedge)) {
         if (known->data.index() != part.data.index() || known->normalised != part.normalised) {
@@ -315,8 +315,8 @@ void copy_into(Attribute& to, const Attribute& from, std::size_t first) {
             for (std::size_t i = 0; i < from.size(); ++i)
                 for (std::size_t c = 0; c < width; ++c) {
                     const bool there = c < static_cast<std::size_t>(from.components);
-                    // For the same type, the raw number; otherwise value() gives fractions, which float32 can
-                    // hold.
+                    // Copies raw numbers of the same type. Otherwise value() gives fractions, which float32
+                    // can hold.
                     const double x = !there ? (to.role == Role::colour ? opaque : 0.0)
                                      : to.data.index() == from.data.index()
                                          ? static_cast<double>(std::get<Numbers>(
@@ -415,7 +415,7 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
 
 namespace {
 
-/// The vertex at corner c of the mesh, as a wedge number; empty if the extension does not give them.
+/// [corners] The vertices that the extension defines, as wedge numbers; empty if it defines none.
 std::vector<Index> told_vertices(Source& source, const JsonCursor& extension, const Mesh& mesh) {
     const JsonCursor primitive = extension.at("manifoldPrimitive");
     std::vector<Index> vertices = decode_indices(source, primitive.at("indices"), mesh.positions.size());

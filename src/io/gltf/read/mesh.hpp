@@ -1,5 +1,6 @@
 #pragma once
-// A glTF mesh as a Mesh: its primitives are merged for geometry, and kept in the face attribute "primitive".
+// Decodes a glTF mesh as a Mesh. The geometry of its primitives is merged; the face attribute "primitive"
+// keeps them apart.
 
 #include "io/codec.hpp"
 #include "io/gltf/document/accessor.hpp"
@@ -16,11 +17,11 @@ struct DecodedMesh {
     std::vector<ReadWarning> warnings;
 };
 
-/// Decodes the triangles of mesh `index`, or the lines of a mesh without triangles. Triangles are welded into
-/// vertices by exact position, or as EXT_mesh_manifold defines. glTF's vertices become wedges; equal wedges
-/// at a vertex are merged. Points in the same mesh stay in the document, with a warning (W-SKIPPED).
-/// Primitive::material is the document's material index. The same bytes give the same Mesh, so the writer can
-/// decode again to check for changes. Throws malformed and limit.
+/// Decodes the triangles of mesh `index`, or the lines of a mesh without triangles. Triangles are welded
+/// into vertices by exact position, or as EXT_mesh_manifold defines. glTF's vertices become wedges; equal
+/// wedges at a vertex are merged. Points in the same mesh stay in the document, with a warning (W-SKIPPED).
+/// Primitive::material is the document's material index. The same bytes give the same Mesh, so the writer
+/// can decode again to check for changes. Throws a malformed-input error and a limit error.
 [[nodiscard]] DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
                                       const ReadElsewhere& elsewhere = {});
 

@@ -56,7 +56,7 @@ class Opened {
 
 Vec3 vector_at(const Attribute& a, std::size_t i) { return {a.value(i, 0), a.value(i, 1), a.value(i, 2)}; }
 
-/// One of the wedges of each vertex.
+/// A wedge of each vertex.
 std::vector<Index> wedge_of_vertices(const Mesh& mesh) {
     std::vector<Index> out(mesh.vertex_count(), none);
     for (Index w = 0; w < mesh.wedge_count(); ++w)

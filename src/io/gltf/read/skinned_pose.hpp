@@ -1,5 +1,5 @@
 #pragma once
-// Skinned and morphed parts as a viewer shows them before anything plays.
+// Poses skinned and morphed parts as a viewer shows them before any animation plays.
 
 #include "mesh/scene.hpp"
 

@@ -6,8 +6,8 @@
 
 namespace facetmill::io::gltf {
 
-/// The matrices of a skin with this many joints, 16 numbers each, column by column. Throws malformed (E-GLTF)
-/// if its accessor has another type or size.
+/// The matrices of a skin with this many joints, 16 numbers each, column by column. Throws a malformed-input
+/// error (E-GLTF) if its accessor has another type or size.
 [[nodiscard]] std::vector<float> bind_matrices(Source& source, const JsonCursor& skin, std::size_t joints);
 
 /// A transform from 16 numbers, column by column.

@@ -97,7 +97,7 @@ class Placer {
   private:
     Patch& patch_;
     ImageNames names_;
-    std::map<std::string, std::size_t> views_; ///< by the digest of the bytes
+    std::map<std::string, std::size_t> views_; ///< views by the digest of the bytes
     std::map<std::string, fs::path> copies_;
     std::vector<OutputFile> files_;
 };

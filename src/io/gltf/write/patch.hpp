@@ -27,10 +27,11 @@ struct Patch {
 /// The document as read, with moved skeletons, and the part at each placement.
 struct Claims {
     std::vector<NodeFrame> frames{};
-    std::map<std::size_t, Transform> above{};     ///< matrices of new nodes above roots
-    std::vector<Placement> placements{};          ///< its parts as read
-    std::map<int, Transform> largest_instances{}; ///< by node with several instances, relative to it
-    std::vector<int> claimed{};                   ///< the part at each placement, or -1
+    std::map<std::size_t, Transform> above{}; ///< matrices of new nodes above roots
+    std::vector<Placement> placements{};      ///< the parts as read
+    std::map<int, Transform>
+        largest_instances{};    ///< by node: the largest of several instances, relative to the node
+    std::vector<int> claimed{}; ///< the part at each placement, or -1
 };
 
 /// For each image copied from another document, that document.
@@ -47,7 +48,7 @@ struct PartNodes {
     ImageOwners images;
 };
 
-/// All attributes have their final form.
+/// The meshes after all attributes have their final form.
 struct StoredMeshes {
     ImageOwners images;
 };
@@ -55,9 +56,10 @@ struct StoredMeshes {
 /// The materials and textures copied into the document so far.
 struct MaterialCopies {
     Patch& patch;
-    std::map<Index, int> materials{};                            ///< by scene material, index in the document
-    std::map<std::pair<int, std::size_t>, std::size_t> copied{}; ///< textures, samplers, images
-    std::map<int, Json> others{};                                ///< other documents, parsed
+    std::map<Index, int> materials{}; ///< by scene material, index in the document
+    std::map<std::pair<int, std::size_t>, std::size_t>
+        copied{};                 ///< indices of copied textures, samplers and images
+    std::map<int, Json> others{}; ///< parsed JSON of other documents
     ImageOwners images{};
 };
 
@@ -66,15 +68,16 @@ struct MaterialCopies {
 /// longer skinned if its skin, or a skeleton with common joints, has already moved differently (W-SKIN).
 [[nodiscard]] Scene in_bind_pose(Scene scene, int base, std::map<std::size_t, Transform>& skin_moves,
                                  std::vector<Diagnostic>& warnings);
-/// Moves skeletons with their skins. A node above their roots has the movement, and the inverse bind matrices
-/// cancel it. Joints and animations stay unchanged.
+/// Moves skeletons with their skins. A node above their roots gets the movement, and the inverse bind
+/// matrices cancel it. Joints and animations stay unchanged.
 void move_skins(Patch& patch, Claims& claims, const std::map<std::size_t, Transform>& skin_moves);
 /// Inserts a node with this matrix above a node.
 void move_from_above(Patch& patch, std::size_t node, const Transform& by);
 
 /// Finds the part at each placement of the document, and moves skeletons.
 [[nodiscard]] Claims claim_placements(Patch& patch, const std::map<std::size_t, Transform>& skin_moves);
-/// Writes the meshes of all parts. Equal instances share a mesh; otherwise each variant gets its own.
+/// Writes the meshes of all parts. Equal instances share a mesh; otherwise each variant gets a separate
+/// mesh.
 [[nodiscard]] PartMeshes patch_meshes(Patch& patch, Claims claims);
 /// Assigns meshes to nodes, adds nodes for new parts, and updates names and transforms. Parts X.lod1, X.lod2,
 /// ... become levels of X (MSFT_lod): outside the scene, under X's parent. Drops meshes that no part uses.
@@ -82,20 +85,20 @@ void move_from_above(Patch& patch, std::size_t node, const Transform& by);
 /// Drops meshes that the document placed and that no part uses.
 void drop_dead_meshes(Patch& patch, const PartMeshes& meshes);
 
-/// Stores the attributes of all meshes with quantize, and in the forms of meshopt's filters. The grid of a
-/// mesh's positions goes into its nodes' transforms. If an animation, a camera, children or others depend on
-/// a node, it goes into a new node below. For several instances (EXT_mesh_gpu_instancing), the grid's origin
-/// goes into each of them. Positions of meshes with a skin or without a node stay float32, which the changes
-/// record.
+/// With quantize or meshopt's filters, stores the attributes of all meshes in their rounded forms. The grid
+/// of a mesh's positions goes into its nodes' transforms. If an animation, a camera, children or others
+/// depend on a node, the grid goes into a new child node. For several instances (EXT_mesh_gpu_instancing),
+/// the grid's origin goes into each of them. Positions of meshes with a skin or without a node stay float32,
+/// which the changes record.
 [[nodiscard]] StoredMeshes store_meshes(Patch& patch, PartNodes nodes);
 /// For meshopt: moves animations, instances and bind matrices into views that can be compressed. Rotations
 /// have 16 bits. Animated translations and scales have steps of at most 2^-16 of their largest extent.
-/// Instances are exact within a quarter of a step of their mesh's grid, or to float32 precision of the
-/// largest.
+/// Instances are exact to a quarter of a step of their mesh's grid, or to the float32 precision of the
+/// largest instance.
 void store_streams(Patch& patch, const StoredMeshes& meshes);
 
-/// If requested, interleaves the attributes of each primitive in one view; in several views beyond 252 bytes
-/// per vertex. Primitives that share an attribute share the view. Morph targets, sparse attributes and
+/// If requested, interleaves the attributes of each primitive in a view, or in several views beyond 252
+/// bytes per vertex. Primitives that share an attribute share the view. Morph targets, sparse attributes and
 /// Draco's attributes stay unchanged.
 void interleave_attributes(Patch& patch, const StoredMeshes& meshes);
 
@@ -103,8 +106,8 @@ void interleave_attributes(Patch& patch, const StoredMeshes& meshes);
 [[nodiscard]] int patch_material(MaterialCopies& copies, Index material);
 
 /// Places image files according to the settings: in the document's buffer views, next to it under new names,
-/// or at their original location. Returns the files to write next to the output. stem: the output's stem,
-/// which new file names start with.
+/// or at their original location. Returns the files to write next to the output. stem: the output's stem;
+/// new file names start with it.
 [[nodiscard]] std::vector<OutputFile> place_images(Patch& patch, const ImageOwners& owners,
                                                    const std::string& stem, Textures textures);
 

@@ -12,7 +12,7 @@ namespace {
 /// Parts that share a source mesh and are still equal.
 struct Variant {
     std::size_t example;   ///< an example part
-    bool original = false; ///< unchanged: its primitives stay
+    bool original = false; ///< true if unchanged, so that its primitives stay
     int mesh = -1;
     std::size_t dropped_faces = 0;
 };
@@ -115,7 +115,7 @@ void release_manifold(Patch& patch, const Json& extension) {
 void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
     if (!mesh.contains("extensions")) return;
     for (const auto& [name, value] : mesh["extensions"].items()) {
-        if (name == "EXT_mesh_manifold") { // written again on request
+        if (name == "EXT_mesh_manifold") { // it is written again on request
             release_manifold(patch, value);
             continue;
         }
@@ -129,14 +129,14 @@ void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
     mesh.erase("extensions");
 }
 
-/// The mesh object of a part. `mesh`: the old object (or only a name). Null if nothing is left of it.
+/// The mesh object of a part. `mesh`: the old object (or only a name). Null if no primitive is left.
 Json encoded_object(MaterialCopies& copies, Json mesh, Variant& variant) {
     Patch& patch = copies.patch;
     const Part& part = patch.scene.parts[variant.example];
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(copies, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
     patch.written.cache.add(encoded.cache);
-    Json untouched = Json::array(); // points, and lines that became tubes
+    Json untouched = Json::array(); // the points, and the lines that became tubes
     if (mesh.contains("primitives")) {
         const bool lines = is_of_lines(JsonCursor(mesh, ""));
         for (auto& primitive : mesh["primitives"])
@@ -219,7 +219,7 @@ PartMeshes patch_meshes(Patch& patch, Claims claims) {
     const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
     std::vector<std::size_t> variant_of(parts.size());
     std::map<std::pair<int, int>, std::vector<Variant>>
-        families; // by document and mesh; new parts separately
+        families; // by document and mesh; each new part separately
     const auto key_of = [&](std::size_t i) {
         const Part& p = parts[i];
         const bool ours = p.document == patch.base && p.document >= 0 && p.source_mesh >= 0 &&

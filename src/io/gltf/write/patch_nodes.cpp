@@ -71,7 +71,7 @@ Transform node_world(const Patch& patch, const Claims& claims, const Part& part)
     return back ? part.transform * *back : part.transform;
 }
 
-/// The wanted world transforms of the document's nodes: of the parts, and otherwise unchanged.
+/// The wanted world transforms of the document's nodes: those of the parts, otherwise unchanged.
 std::vector<Transform> wanted_worlds(const Patch& patch, const Claims& claims) {
     std::vector<Transform> worlds;
     for (const auto& frame : claims.frames) worlds.push_back(frame.world);
@@ -259,13 +259,13 @@ Claims claim_placements(Patch& patch, const std::map<std::size_t, Transform>& sk
     claims.claimed.assign(claims.placements.size(), -1);
     for (const Placement& placement : claims.placements)
         if (placement.instances > 0) claims.largest_instances[placement.node] = placement.largest_instance;
-    std::map<std::pair<int, int>, std::size_t> placement_at; // by node and mesh
+    std::map<std::pair<int, int>, std::size_t> placement_at; // placements by node and mesh
     for (std::size_t p = 0; p < claims.placements.size(); ++p)
         placement_at[{claims.placements[p].node, claims.placements[p].mesh}] = p;
     for (std::size_t i = 0; i < patch.scene.parts.size(); ++i) {
         const Part& part = patch.scene.parts[i];
         const auto found = placement_at.find({part.node, part.source_mesh});
-        // The first part of a placement keeps its node; parts split off it get new ones.
+        // The first part of a placement keeps its node; split-off parts get new nodes.
         if (part.document == patch.base && found != placement_at.end() && claims.claimed[found->second] < 0)
             claims.claimed[found->second] = static_cast<int>(i);
     }
@@ -273,7 +273,7 @@ Claims claim_placements(Patch& patch, const std::map<std::size_t, Transform>& sk
     return claims;
 }
 
-// --- Levels of detail in one file: MSFT_lod.
+// --- Levels of detail in the same file: MSFT_lod.
 
 namespace {
 
@@ -289,7 +289,7 @@ std::pair<std::string, std::size_t> level_of(const std::string& name) {
     return {name.substr(0, at), level};
 }
 
-using Levels = std::map<std::size_t, std::size_t>; ///< part by level
+using Levels = std::map<std::size_t, std::size_t>; ///< parts by level
 
 /// The levels of each part that has levels.
 std::map<std::size_t, Levels> levels_by_part(const std::vector<Part>& parts) {
@@ -341,7 +341,7 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
             const auto node = static_cast<std::size_t>(node_of_part[part]);
             ids.push_back(node);
             ++linked;
-            if (frames[node].parent >= 0) continue; // already in the hierarchy
+            if (frames[node].parent >= 0) continue; // the node is already in the hierarchy
             unroot(document, node);
             if (!patch.scene.parts[part].skinned)
                 place_level(document["nodes"][node], parent,

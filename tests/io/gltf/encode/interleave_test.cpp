@@ -118,5 +118,5 @@ TEST_CASE("interleave goes with neither draco nor meshopt, nor with other format
                 .find(std::string("'interleave' and '") + other + "' exclude each other") !=
             std::string::npos);
     CHECK(test::problems_of("write", options({{"path", "a.ply"}, {"interleave", "true"}}))
-              .find("'interleave' goes with") != std::string::npos);
+              .find("'interleave' works with") != std::string::npos);
 }
