@@ -18,11 +18,12 @@ namespace facetmill::report {
 
 namespace {
 
-constexpr std::size_t all_faces = 150000, most_faces = 40000; ///< in total, and per scene
-constexpr std::size_t most_scenes = 6;                        ///< that get a share of the faces
+constexpr std::size_t all_faces = 150000,
+                      most_faces = 40000; ///< maximum numbers of faces: in total, and per scene
+constexpr std::size_t most_scenes = 6;    ///< number of scenes that get a share of the faces
 /// Limits for the text in a page of 3 MB: all scenes with their textures, and the textures.
 constexpr std::size_t most_bytes = 1200000, most_texture_bytes = 500000;
-constexpr int largest_texture = 512; ///< pixels a side
+constexpr int largest_texture = 512; ///< pixels along a side
 
 /// The largest of the sizes.
 double largest_of(const std::vector<float>& distances) {
