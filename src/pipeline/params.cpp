@@ -63,10 +63,10 @@ struct ParamOptions {
     bool required = false;
     std::optional<std::string> min, max;
     std::vector<std::string> choices;
-    Type of = Type::list; ///< of each value of a list; list: any type
+    Type of = Type::list; ///< the type of each value of a list; list: any type
 
     bool is_list() const { return type == Type::list; }
-    /// The type of the value, or of each value of a list; list: any type.
+    /// The type of the value, or the type of each value of a list; list: any type.
     Type single() const { return is_list() ? of : type; }
 };
 
