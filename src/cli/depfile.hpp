@@ -6,14 +6,14 @@
 namespace facetmill::cli {
 
 /// The name in Make's notation: escapes blanks, #, $, colons, % in a target, and backslashes before these.
-/// Throws output (E-DEPFILE) for a line break, which Make cannot represent.
+/// Throws an output error (E-DEPFILE) for a line break, which Make cannot represent.
 std::string make_escaped(const std::string& path, bool target);
 
 /// "target: inputs", and an empty rule for each input, so that Make does not stop if an input is deleted.
 [[nodiscard]] std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);
 
-/// Call it before a run with a depfile. Throws as make_escaped for the target (if empty: for the first
-/// planned output), and for the plan's inputs.
+/// Call it before a run with a depfile. Throws the errors of make_escaped for the target (if empty: for the
+/// first planned output), and for the plan's inputs.
 void require_spellable(const std::string& target, const pipeline::Plan& plan);
 
 /// Writes the rule of a run; the record's paths must be valid from the working directory. The target is the

@@ -108,7 +108,7 @@ void add_cell_options(Arguments& arguments, PipelineOptions& options) {
 
 namespace {
 
-/// "cells", or "3/16": the third of 16 jobs. Throws usage (E-ARGUMENT).
+/// "cells", or "3/16": the third of 16 jobs. Throws a usage error (E-ARGUMENT).
 cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
     cells::CellJob job;
     if (text == "cells") return job;
@@ -402,7 +402,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
     settings.commit = {.keep_unchanged = options.restat, .sync = !options.no_sync};
-    Json view; // of the page with times
+    Json view; // view of the page with times
     if (options.timings.ends_with(".html")) settings.on_view = [&](const Json& shown) { view = shown; };
     if (options.explain && !store)
         console.say(
