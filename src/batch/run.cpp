@@ -174,7 +174,7 @@ class BatchRun {
     Outcome run_asset(const Work& work, std::optional<Done>& done) {
         Problems problems;
         const auto plan = settings_.plan(work.asset, problems);
-        problems.throw_if_any(ErrorKind::usage); // it was planned before, so the pipeline has changed since
+        problems.throw_if_any(ErrorKind::usage); // the pipeline changed after it was planned
         std::vector<Stamp> before;               // stamps from before reading
         for (const auto& input : work.inputs)
             if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
@@ -268,7 +268,7 @@ class BatchRun {
         stamp.bytes = error ? 0 : size;
         try {
             if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
-        } catch (const Error&) { // it is gone: then it is never as it was
+        } catch (const Error&) { // a missing file counts as changed
         }
     }
     Stamp complete(Stamp stamp) const {

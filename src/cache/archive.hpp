@@ -226,7 +226,7 @@ class ByteReader {
             all.resize(count(sizeof(T)));
             raw(all.data(), all.size() * sizeof(T));
         } else {
-            all.clear(); // one by one, so that an excessive count stops at the end of the bytes
+            all.clear(); // adds items one by one, so that an excessive count stops at the end of the bytes
             for (std::size_t n = count(1); n > 0; --n) get(all.emplace_back());
         }
     }

@@ -234,7 +234,7 @@ struct PartFile {
 
     explicit PartFile(const fs::path& folder) {
         static std::atomic<std::uint64_t> number{0}; // stores of the same process may share a folder
-        constexpr int max_attempts = 1000;           // for leftovers of a process with the same id
+        constexpr int max_attempts = 1000; // tries further names if a process with the same id left files
         for (int attempt = 0;; ++attempt) {
             path = folder / fmt::format(".{}-{}{}", process_id(), number++, temporary);
             clean_up = io::clean_up_file(path);

@@ -42,7 +42,7 @@ class Console {
     /// A message for people, without control characters; suppressed by quiet. In JSON: {"level": "info",
     /// "message": ...}.
     void say(std::string_view text) const;
-    /// The same with colours; not for JSON.
+    /// Writes a result with colours; not for JSON.
     void say(const Painted& text) const;
     /// A JSON object for programs, only with --log json.
     void event(const Json& object) const;

@@ -425,7 +425,8 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     few.finish();
     summarise(record, console);
     if (!options.explain) tell_recalled(trace, console);
-    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else already said
+    const bool writable =
+        record.exit_code != static_cast<int>(ErrorKind::output); // output errors are already reported
     if (!options.timings.empty() && writable) {
         const std::string text = options.timings.ends_with(".html")
                                      ? report::to_html_with_times(record, view)
@@ -435,7 +436,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
                       options.restat ? std::optional(started) : std::nullopt);
-    for (auto& stage : record.stages) destroy(stage.result); // it is large for scenes of many parts
+    for (auto& stage : record.stages) destroy(stage.result); // large for scenes of many parts
     return record.exit_code;
 }
 

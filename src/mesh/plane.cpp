@@ -53,8 +53,8 @@ bool surely_turned(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) {
     return std::fabs(x - y) > 4.5e-16 * (std::fabs(x) + std::fabs(y)) + 1e-300;
 }
 
-/// The same plane, scaled by a power of two to a normal with length near 1, so that products with it do not
-/// overflow.
+/// Returns the same plane, scaled by a power of two to a normal with length near 1, so that products with it
+/// do not overflow.
 Plane scaled(Plane plane) {
     int power = -2000;
     for (std::size_t i = 0; i < 3; ++i)

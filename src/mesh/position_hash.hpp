@@ -131,7 +131,7 @@ class PositionHash {
         return none;
     }
 
-    /// The same as a == b, which would call memcmp.
+    /// Equals a == b, but without a call of memcmp.
     static bool is_same(const FloatBits& a, const FloatBits& b) {
         return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
     }

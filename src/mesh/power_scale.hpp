@@ -36,7 +36,7 @@ struct PowerScale {
 
 /// length(v), even if its square would overflow or underflow.
 [[nodiscard]] double scaled_length(const Vec3& v);
-/// The same, scaled only if necessary.
+/// Like scaled_length, but faster: scales only if necessary.
 [[nodiscard]] inline double safe_length(const Vec3& v) {
     const double plain = length(v);
     return plain > 1e-140 && plain < 1e140 ? plain : scaled_length(v);

@@ -116,9 +116,9 @@ std::uint32_t position_hash(const Vec3& p, std::size_t v) {
     return static_cast<std::uint32_t>(place_hash(p));
 }
 
-constexpr int bucket_bits = 11; // one pass of the radix sort
+constexpr int bucket_bits = 11; // bits of the radix sort's only pass
 
-constexpr std::size_t few = 4096; // for fewer vertices, a single bucket is faster
+constexpr std::size_t few = 4096; // below this many vertices, a single bucket is faster
 
 /// Finds the hashes that occur more than once, plus a few others: a bit for each of 16 times as many hashes
 /// as exist (a Bloom filter with one function, after B. H. Bloom, "Space/time trade-offs in hash coding with

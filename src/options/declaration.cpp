@@ -142,7 +142,8 @@ void add_conflicts(const std::vector<std::string>& names, Json& object) {
             if (name != other) object["dependentSchemas"][name]["properties"][other] = false;
 }
 
-/// One of the names is required. Each form names its property, as strict validators require.
+/// A schema that requires at least one of the names. Each form names its property, as strict validators
+/// require.
 Json any_of_these(const std::vector<std::string>& names) {
     Json forms = Json::array();
     for (const auto& name : names)

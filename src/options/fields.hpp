@@ -443,7 +443,7 @@ class DeclareFields {
     template <class T>
     Field& start(std::string_view name, const char* type,
                  Json schema,             // NOLINT(performance-unnecessary-value-param)
-                 std::string_view help) { // it is moved from, which the check does not see in a template
+                 std::string_view help) { // moved from, which the check misses in templates
         return facetmill::fields::start(fields, name, type, std::move(schema), help,
                                         facetmill::fields::optionals<T>);
     }

@@ -25,7 +25,7 @@ bool has_word(std::string_view words, std::string_view word);
 [[nodiscard]] std::vector<std::string> options_called(std::string_view word,
                                                       const std::vector<KnownName>& known);
 
-/// The same, without names whose value has another meaning, such as ratio for reduction.
+/// Like options_called, without names whose value has another meaning, such as ratio for reduction.
 [[nodiscard]] std::vector<std::string> options_of_same_value(std::string_view word,
                                                              const std::vector<KnownName>& known);
 

@@ -232,7 +232,7 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     if (!value.is_scalar()) return wrong_type(value, expected, problems);
     const auto parts = number_and_unit(value.text);
     if (!parts || !(parts->second == "%" || parts->second == "pct" || parts->second.empty())) {
-        const auto count = integer_meant(value); // for example 10k
+        const auto count = integer_meant(value); // accepts, for example, 10k
         return wrong_type(value, expected, problems,
                           count ? fmt::format("name the option that counts (faces: {})", *count) : "");
     }

@@ -43,7 +43,7 @@ using How = ProgramEnd::How;
 /// waits.
 How wait_for(pid_t process, const Descriptor& socket, std::chrono::seconds limit, int& status) {
     const auto deadline = std::chrono::steady_clock::now() + limit;
-    constexpr int first_pause = 2, longest_pause = 50; // in milliseconds
+    constexpr int first_pause = 2, longest_pause = 50; // pauses in milliseconds
     for (int pause = first_pause;; pause = std::min(2 * pause, longest_pause)) {
         const pid_t ended = ::waitpid(process, &status, WNOHANG);
         if (ended == process || (ended < 0 && errno != EINTR)) return How::exited;

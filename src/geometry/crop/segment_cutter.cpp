@@ -373,7 +373,7 @@ class SegmentCutter {
         const auto sign = [&](std::size_t i) { return sign_at(s, vertex_of(wedges[i % n])); };
         std::size_t begin = 0; // the first corner in front
         while (!(sign(begin) > 0 && sign(begin + n - 1) < 0)) ++begin;
-        std::array<std::vector<Index>, 2> parts; // in front and behind
+        std::array<std::vector<Index>, 2> parts; // triangles in front and behind
         std::array<Bounds, 2> boxes;
         std::size_t i = begin;
         for (std::size_t part = 0; part < 2; ++part) {

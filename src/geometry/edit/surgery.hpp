@@ -19,8 +19,8 @@ namespace facetmill {
 [[nodiscard]] std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face,
                                           std::size_t count);
 
-/// The same, but each mesh lists only the primitives that it uses, in their original order. O(corners), even
-/// for many primitives.
+/// Like separated, but each mesh lists only the primitives that it uses, in their original order.
+/// O(corners), even for many primitives.
 [[nodiscard]] std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
                                                           std::size_t count);
 

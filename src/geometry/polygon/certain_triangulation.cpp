@@ -106,9 +106,7 @@ class CertainTriangulation {
             for (const auto& [from, to] : {std::array{c, b}, std::array{a, c}}) {
                 if (border_[to][from]) continue;
                 open.push_back({from, to});
-                if (!fixed_[from][to])
-                    lines_.push_back(
-                        {from, to}); // of the diagonals between points on a circle, one is enough
+                if (!fixed_[from][to]) lines_.push_back({from, to}); // points on a circle need one diagonal
                 fixed_[from][to] = fixed_[to][from] = 1;
             }
         }
@@ -119,7 +117,7 @@ class CertainTriangulation {
 
     bool is_proved() const {
         if (triangles_.size() + border_edges_.size() + 2 != 2 * count_) return false; // all points are used
-        for (const auto& [a, b] : lines_) // and all other edges pair up
+        for (const auto& [a, b] : lines_) // all other edges must pair up
             if (across_[a][b] == none || across_[b][a] == none) return false;
         for (const auto& [a, b, c] : triangles_)
             if (!turns_left(a, b, c)) return false;

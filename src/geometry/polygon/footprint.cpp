@@ -38,7 +38,8 @@ std::vector<std::vector<Vec2>> tidied(std::vector<std::vector<Vec2>> rings) {
 
 /// Reports the first point where two segments cross.
 void refuse_crossings(const RingTree& tree, polygon::Rings rings) {
-    if (polygon::contact(rings) != polygon::Contact::crossing) return; // in a star, nearly all boxes meet
+    if (polygon::contact(rings) != polygon::Contact::crossing)
+        return; // fast even for a star, whose boxes meet
     const auto& edges = tree.edges();
     for (Index i = 0; i < edges.size(); ++i)
         tree.query(RingTree::bounds(edges[i]), [&](Index j) {

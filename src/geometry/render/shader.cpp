@@ -123,7 +123,7 @@ Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
 /// The cosine between the normal and the light, or 0 for light from behind. right_side: materials show the
 /// visible side.
 double Shader::in_light(const Vec3& normal, bool right_side) const {
-    static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
+    static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // light from the viewer's upper left
     double amount = dot(normal, light);
     if (settings_.shading == Shading::one_sided && !right_side) amount = -amount;
     if (settings_.shading == Shading::absolute) amount = std::abs(amount);

@@ -161,7 +161,7 @@ Axes footprint_axes(const Texture& t, const TextureFootprint& f) {
 /// An approximation of log2 of x >= 1, linear between powers of two, which is accurate enough to mix levels.
 double mip_level(double x) {
     int exponent = 0;
-    const double mantissa = std::frexp(x, &exponent); // from 0.5 to 1
+    const double mantissa = std::frexp(x, &exponent); // the mantissa is from 0.5 to 1
     return exponent - 1 + (2 * mantissa - 1);
 }
 

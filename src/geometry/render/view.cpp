@@ -224,7 +224,7 @@ void stand_back(View& view, double angle, const Box& box) {
     const double radius = box.diagonal() / 2;
     view.eye = middle;
     view.eye->z += radius > 0 ? radius / sine(angle / 2) : 1;
-    view.distance = view.eye->z - middle.z; // in samples after multiplication by the scale
+    view.distance = view.eye->z - middle.z; // the distance in samples, after multiplication by the scale
 }
 
 } // namespace

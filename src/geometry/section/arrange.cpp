@@ -103,7 +103,7 @@ void arrange(Section& s) {
     const Nesting nesting(rings);
     std::vector<std::vector<Index>> around(rings.size());
     for (Index r = 0; r < rings.size(); ++r) around[r] = nesting.around(r);
-    if (!s.oriented) // by nesting only: outlines anticlockwise, holes clockwise
+    if (!s.oriented) // orients by nesting only: outlines anticlockwise, holes clockwise
         for (Index r = 0; r < rings.size(); ++r) {
             Contour& c = s.contours[contour_of[r]];
             const int wanted = around[r].size() % 2 == 0 ? 1 : -1;

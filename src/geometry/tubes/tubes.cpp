@@ -107,7 +107,7 @@ class Sweep {
             twist_ = {cosine(turn), sine(turn)};
             frame = corner(i, (i + n - 1) % n, i, frame);
         }
-        const bool twisted = std::abs(each) > 1e-12; // in radians: far above rounding, but invisible
+        const bool twisted = std::abs(each) > 1e-12; // a limit in radians: far above rounding, but invisible
         for (Index k = 0; k + 1 < rings_; ++k) wall(k, k + 1, 0, twisted);
         const auto shifted = static_cast<Index>((static_cast<long>(shift) + 2L * sides_) % sides_);
         wall(rings_ - 1, 0, shifted, twisted);

@@ -122,7 +122,7 @@ class Dxf {
         auto& ring = rings_.emplace_back();
         for (std::size_t i = 0; i < corners_.size(); ++i)
             append_arc(corners_[i], corners_[(i + 1) % corners_.size()].at, ring);
-        if (looks_.z < 0) // for an entity drawn from the back, x is reversed
+        if (looks_.z < 0) // if an entity is drawn from the back, x is reversed
             for (Vec2& p : ring) p.x = -p.x;
     }
 
