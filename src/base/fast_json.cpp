@@ -16,7 +16,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A reader by recursive descent. Each function returns false when it gives up. The library builds an object
+/// A reader by recursive descent. Each function returns false if it fails. The library builds an object
 /// member by member. Its members have constant keys, so a growing vector copies everything below them. Here
 /// members wait in a list until their number is known. Each level has a single list, because a level reads
 /// only one object or array at a time.

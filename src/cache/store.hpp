@@ -75,7 +75,7 @@ class Store {
     /// Removes leftovers of processes that ended early, and entries until the limit is met. Returns what was
     /// removed.
     Contents collect();
-    /// Removes all entries. Returns what was removed.
+    /// Removes all entries. Returns the removed contents.
     Contents clear();
     const StoreSettings& settings() const { return settings_; }
 

@@ -24,7 +24,7 @@ struct FolderPair {
     enum class Outcome { failed, differs, removed, added, same }; ///< worst first
     PairedPaths paths;
     Outcome outcome = Outcome::same;
-    int exit_code = 0;   ///< as for `facetmill diff` of the two
+    int exit_code = 0;   ///< the exit code of `facetmill diff` for these two files
     std::string verdict; ///< "agree", or the reason of the failure
     std::optional<double>
         percent; ///< largest deviation, in percent of the first file's diagonal; none: not measured

@@ -29,7 +29,7 @@ bool same_plane(const Plane& a, const Plane& b);
 
 /// The plane before the map: p is in front of it if to_world maps p to the front of the given plane, up to
 /// rounding of the new coefficients. The identity returns the same plane. normal and through are mapped, so
-/// that axis-aligned planes stay axis-aligned. A singular map moves the offset instead.
+/// that axis-aligned planes stay axis-aligned. If the map is singular, only the plane's offset moves.
 [[nodiscard]] Plane pulled_back(const Plane& plane, const Transform& to_world);
 
 /// The only axis along which the normal is not zero, or -1.

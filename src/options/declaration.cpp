@@ -282,7 +282,7 @@ std::string hint_of_number(const Declaration& declaration, const Option& primary
                        ways.empty() ? "" : " or ", last);
 }
 
-/// Longer lists of names are omitted, because nobody reads them.
+/// Longer lists of names are omitted, because users do not read them.
 constexpr std::size_t most_listed = 24;
 
 std::string where_listed(std::string_view owner, std::size_t names) {

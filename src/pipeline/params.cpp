@@ -126,7 +126,7 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
 }
 
 /// Converts a path from the command line, or from a file in that folder, to the pipeline file's convention.
-/// The result is relative to the pipeline if that is the same file, else absolute.
+/// The result is relative to the pipeline if that is the same file, otherwise absolute.
 std::string from_working_directory(const std::string& text, const fs::path& folder_of_text,
                                    const PlanSettings& settings) {
     const fs::path given(text);

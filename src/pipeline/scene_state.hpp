@@ -39,7 +39,7 @@ struct SceneState {
     std::optional<std::pair<std::string, cache::Memory>> loaded;
     bool without_cache = false;
     bool in_cells = false;        ///< no scene yet: the loaded mesh is larger than memory
-    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this one
+    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this flow
     std::size_t inherited = 0;    ///< the number of recalled steps that belong to the origin
 
     /// True if `scene` is the current scene.

@@ -213,7 +213,7 @@ class CellCleaning {
         CleanResult result = unsound_.empty() ? untouched(attributes) : cleaned_part();
         const bool replaces = result.counts.total() > 0 || spared_ > 0;
         const std::size_t welded =
-            before_ - placed_->vertices() - spared_; // vertices about which clean had nothing to decide
+            before_ - placed_->vertices() - spared_; // vertices that needed no decision of clean
         result.counts.welded_vertices += welded;
         if (result.counts.welded_vertices > 0 && !attributes.empty())
             refuse(

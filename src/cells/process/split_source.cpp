@@ -27,8 +27,8 @@ Mesh cut(const Mesh& mesh, const FaceCut& how) {
                          : grid_split(mesh, how.grid).mesh;
 }
 
-/// Adds the names of new vertices. They derive from the names of the edge's ends, or of the face, each with
-/// a number.
+/// Adds the names of new vertices. A new name derives from the names of the edge's ends, or from the face's
+/// name, and a number.
 void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<std::uint32_t>& numbers,
                        std::vector<std::uint64_t>& names) {
     const std::size_t points = how.grid == 0 ? 1 : static_cast<std::size_t>(how.grid) - 1;

@@ -14,8 +14,8 @@ namespace facetmill::clean_steps {
 ///
 /// A *room* is a connected set of grid cells that no box of one operand's faces touches. That operand has a
 /// constant winding number in the room. The other operand's faces in the room are lost when the number
-/// decides both of their sides. At a number of at least 1 this holds for a union, and for faces of the
-/// minuend. Below 1 it holds for an intersection, and for faces of the subtrahend. An exact ray from a
+/// decides both of their sides. At a number of at least 1 this is true for a union, and for faces of the
+/// minuend. Below 1 it is true for an intersection, and for faces of the subtrahend. An exact ray from a
 /// vertex in the room determines the number. Rooms with few faces are skipped.
 ///
 /// **Pairs of two faces of the same operand may be skipped if one is lost.** Let K be the open set of points

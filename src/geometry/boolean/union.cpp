@@ -92,7 +92,7 @@ std::optional<Index> middle_corner(const Mesh& mesh, Index f) {
     return apart ? std::optional(c[1]) : std::nullopt;
 }
 
-/// A round of removing flat triangles and splitting edges. Each face takes part once.
+/// A round of removing flat triangles and splitting edges. Each face is processed once.
 struct Round {
     std::vector<std::uint8_t> goes;
     std::vector<Insertion> insertions;

@@ -20,7 +20,7 @@ void spare_disjoint(const Mesh& mesh, std::vector<Index>& target) {
     merged.corners.resize(mesh.corner_count());
     for (Index c = 0; c < mesh.corner_count(); ++c) merged.corners[c] = target[mesh.vertex(c)];
     const Fans fans = disjoint_fans(merged);
-    // A weld is unchanged if its old and new vertices match one to one in all corners.
+    // If old and new vertices match one to one in all corners at a position, a weld changes nothing there.
     std::vector<Index> new_of_old(mesh.vertex_count(), none),
         old_of_new(mesh.vertex_count() + fans.copies.size(), none);
     std::vector<std::uint8_t> differs(mesh.vertex_count(), 0);

@@ -98,7 +98,7 @@ enum class Join {
     sum_if_all, ///< the sum, only if every part has a value
     least,
     most,
-    all,      ///< a truth holds if it holds for all parts
+    all,      ///< true if true for all parts
     around,   ///< a box around all
     of_scene, ///< parts have no value; it belongs to the scene
 };

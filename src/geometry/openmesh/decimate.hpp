@@ -11,7 +11,7 @@ namespace facetmill {
 enum class DecimatedVertex : std::uint8_t {
     free,      ///< may be removed, and others may merge into it
     stays,     ///< stays, but others may merge into it
-    untouched, ///< takes part in no collapse
+    untouched, ///< is never collapsed
 };
 
 /// A collapse along an edge. side: the input number of a face at the edge.

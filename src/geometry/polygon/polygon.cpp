@@ -13,8 +13,8 @@ namespace facetmill::polygon {
 
 namespace {
 
-/// Integrals over a ring, relative to a reference point: the sums of P. Bourke, "Calculating the area and
-/// centroid of a polygon" (1988), with their factors.
+/// Integrals over a ring, relative to a reference point. The sums are from P. Bourke, "Calculating the area
+/// and centroid of a polygon" (1988), with their factors.
 struct Integrals {
     double one = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 

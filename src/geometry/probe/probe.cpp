@@ -23,7 +23,7 @@ class Walk {
             return a;
         }
         hint_ = a.closest.triangle;
-        // A point exactly on the surface is closer than the rounding of distances can say.
+        // The distance of a point on the surface is at most this large, because of rounding.
         const double near = 1e-12 / tree_.scale;
         if (a.closest.distance <= settings_.tolerance || (a.closest.distance <= near && lies_on(tree_, p))) {
             a.side = Side::on;

@@ -17,8 +17,8 @@ namespace facetmill {
 [[nodiscard]] std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners);
 
 /// The area of a polygon: the region that it winds around if it crosses itself in its plane
-/// (covering_triangles), else the length of its area vector. O(n) for convex and small polygons, else O(n
-/// log n).
+/// (covering_triangles), otherwise the length of its area vector. O(n) for convex and small polygons,
+/// otherwise O(n log n).
 [[nodiscard]] double covered_area(std::span<const Vec3> corners);
 
 struct CrossingFaces {
