@@ -146,7 +146,7 @@ class AssetFinder {
         }
     }
 
-    /// The asset's input, else its first cell.
+    /// The asset's input, otherwise its first cell.
     static std::string name_of(const Row& row) {
         for (const auto& cell : row)
             if (cell.param == input_param) return cell.text;

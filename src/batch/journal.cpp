@@ -273,7 +273,7 @@ std::optional<Diagnostic> Journal::compact() {
     for (const auto& [asset, done] : all_) {
         try {
             text += done_json(done).dump() + "\n";
-        } catch (const Json::exception&) { // as in add
+        } catch (const Json::exception&) { // a name that is not UTF-8, as in add
         }
     }
     const fs::path part = path_.string() + ".part";

@@ -174,8 +174,8 @@ class BatchRun {
     Outcome run_asset(const Work& work, std::optional<Done>& done) {
         Problems problems;
         const auto plan = settings_.plan(work.asset, problems);
-        problems.throw_if_any(ErrorKind::usage); // it was planned before, so the pipeline has changed since
-        std::vector<Stamp> before;               // from before reading
+        problems.throw_if_any(ErrorKind::usage); // the pipeline changed after it was planned
+        std::vector<Stamp> before;               // stamps from before reading
         for (const auto& input : work.inputs)
             if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
         std::vector<Diagnostic> warnings;
@@ -268,7 +268,7 @@ class BatchRun {
         stamp.bytes = error ? 0 : size;
         try {
             if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
-        } catch (const Error&) { // it is gone: then it is never as it was
+        } catch (const Error&) { // a missing file counts as changed
         }
     }
     Stamp complete(Stamp stamp) const {
@@ -298,8 +298,8 @@ class BatchRun {
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
 
-    /// Registers an output. File names known only at run time (of parts) may give two assets the same output,
-    /// or make it the input of another asset. Throws output before anything is written.
+    /// Registers an output. File names known only at run time (of parts) may give two assets the same
+    /// output, or make it the input of another asset. Throws an output error before anything is written.
     void claim(const Asset& asset, const io::Outputs::File& file) {
         if (!file.stream.empty() || file.is_input) return;
         const fs::path self = io::identity(file.resolved);
@@ -407,7 +407,7 @@ class BatchRun {
     std::mutex guard_; ///< protects all following members
     Journal journal_;
     Summary summary_;
-    std::vector<bool> started_; ///< and not yet finished
+    std::vector<bool> started_; ///< started jobs that are not yet finished
     bool over_ = false;
     std::map<fs::path, std::string> sources_; ///< by identity: inputs, and their assets
     /// By identity: outputs, their assets, and their digests.

@@ -78,7 +78,7 @@ CLI::Option* make(CLI::App& app, const Argument& a) {
         return app.add_option_function<std::string>(a.names, *call, a.help);
     if (const auto* list = std::get_if<std::vector<std::string>*>(&a.target)) {
         CLI::Option* option = app.add_option(a.names, **list, a.help);
-        if (a.at_commas && !a.in_one_word) option->delimiter(','); // which drops empty values
+        if (a.at_commas && !a.in_one_word) option->delimiter(','); // CLI11 drops empty values
         if (a.names.starts_with("-") && (!a.at_commas || a.in_one_word)) option->allow_extra_args(false);
         return option;
     }
@@ -158,7 +158,7 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     app.allow_extras();
     app.set_help_flag("-h,--help", "Print this help and exit.");
     for (const auto& a : all_) declare(app, a);
-    std::vector<std::string> reversed(words.rbegin(), words.rend()); // in the order that CLI11 expects
+    std::vector<std::string> reversed(words.rbegin(), words.rend()); // CLI11 expects the reversed order
     try {
         app.parse(reversed);
     } catch (const CLI::CallForHelp&) {

@@ -52,7 +52,7 @@ struct InfoOptions {
 struct FileInfo {
     Scene scene;
     Properties properties;
-    std::vector<report::Component> components; ///< the largest
+    std::vector<report::Component> components; ///< the largest components
     FaceKinds kinds;
 
     std::int64_t omitted() const {

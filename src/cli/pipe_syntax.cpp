@@ -271,7 +271,7 @@ class Parser {
         return key;
     }
 
-    /// --key value, --key=value, --key, --no-key; dotted keys nest.
+    /// Parses --key value, --key=value, --key and --no-key. Dotted keys nest.
     void option(Value& item, const StageInfo* stage) {
         const std::string argument = all_[at_].substr(2);
         const auto equals = argument.find('=');
@@ -423,7 +423,7 @@ class Parser {
                       fmt::format("it was '{}' before", slot->is_scalar() ? slot->text : slot->described()));
     }
 
-    /// foreach lod=50%,10% name=a,b [ ... ]
+    /// Parses: foreach lod=50%,10% name=a,b [ ... ]
     Value foreach_step(const Mark& where) {
         Value item = Value::map({{"foreach", where, Value::map({}, where)}}, where);
         for (++at_; !at_end_of_step() && all_[at_] != "["; ++at_) {
@@ -459,7 +459,7 @@ class Parser {
             variables.set(variable, std::move(values), mark());
     }
 
-    /// branch near [ ... ] far [ ... ]
+    /// Parses: branch near [ ... ] far [ ... ]
     Value branch_step(const Mark& where) {
         Value item = Value::map({{"branch", where, Value::map({}, where)}}, where);
         ++at_;
@@ -484,7 +484,7 @@ class Parser {
         return item;
     }
 
-    /// include finish.yaml --with.ratio=10%
+    /// Parses: include finish.yaml --with.ratio=10%
     Value include_step(const Mark& where) {
         Value item = Value::map({{"include", where, Value{}}}, where);
         Value options = Value::map({{"include", where, Value{}}}, where); // in the form of a stage
@@ -508,7 +508,7 @@ class Parser {
         return item;
     }
 
-    /// [ stages ]
+    /// Parses: [ stages ]
     Value block(const char* example) {
         if (done() || all_[at_] != "[") {
             wrong("'[' is missing here", example);
@@ -560,7 +560,7 @@ class Parser {
     bool done() const { return at_ >= all_.size(); }
     bool at_end_of_step() const { return done() || is_separator(all_[at_]) || all_[at_] == "]"; }
     Mark mark() const { return line_.mark(std::min(at_, all_.size() - 1)); }
-    /// The part of the current argument from that byte on.
+    /// The mark of the current argument from this byte on.
     Mark inside(std::size_t offset) const {
         Mark m = mark();
         if (m.length != static_cast<int>(all_[at_].size()) || m.length <= static_cast<int>(offset)) return m;

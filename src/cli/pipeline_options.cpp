@@ -110,7 +110,7 @@ void add_cell_options(Arguments& arguments, PipelineOptions& options) {
 
 namespace {
 
-/// "cells", or "3/16": the third of 16 jobs. Throws usage (E-ARGUMENT).
+/// "cells", or "3/16": the third of 16 jobs. Throws a usage error (E-ARGUMENT).
 cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
     cells::CellJob job;
     if (text == "cells") return job;
@@ -447,7 +447,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
     settings.commit = {.keep_unchanged = options.restat, .sync = !options.no_sync};
-    Json view; // of the page with times
+    Json view; // view of the page with times
     if (options.timings.ends_with(".html")) settings.on_view = [&](const Json& shown) { view = shown; };
     if (options.explain && !store)
         console.say(
@@ -470,7 +470,8 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     few.finish();
     summarise(record, console);
     if (!options.explain) tell_recalled(trace, console);
-    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else already said
+    const bool writable =
+        record.exit_code != static_cast<int>(ErrorKind::output); // output errors are already reported
     if (!options.timings.empty() && writable) {
         const std::string text = options.timings.ends_with(".html")
                                      ? report::to_html_with_times(record, view)
@@ -480,7 +481,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
                       options.restat ? std::optional(started) : std::nullopt);
-    for (auto& stage : record.stages) destroy(stage.result); // it is large for scenes of many parts
+    for (auto& stage : record.stages) destroy(stage.result); // large for scenes of many parts
     return record.exit_code;
 }
 

@@ -55,11 +55,11 @@ void check_single(const std::vector<std::string>& pipelines, const PipelineOptio
 }
 
 struct Planned {
-    std::vector<pipeline::Plan> plans; ///< of the pipelines
+    std::vector<pipeline::Plan> plans; ///< plans of the pipelines
     Problems problems;
 };
 
-/// on_include: as PlanSettings.
+/// on_include: see PlanSettings.
 Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOptions& options,
                  const CommandLine& line, std::function<void(const std::filesystem::path&)> on_include) {
     Planned all;
@@ -72,7 +72,7 @@ Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOption
     return all;
 }
 
-/// on_written: receives the written files of each run if others follow; else empty.
+/// on_written: receives the written files of each run if others follow, otherwise empty.
 int run_all(const std::vector<std::string>& pipelines, const Planned& all, const PipelineOptions& options,
             const Console& console, const std::function<void(const std::filesystem::path&)>& on_written) {
     if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);

@@ -167,7 +167,7 @@ std::string as_json(const Json& all) {
 } // namespace
 
 std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
-    check_outputs(jobs); // of each run
+    check_outputs(jobs); // checks the outputs of each run
     std::vector<Job> shards;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (size <= 1 || i % size == 0) {

@@ -12,9 +12,9 @@ namespace facetmill::report {
 namespace {
 
 struct FoundAttribute {
-    std::set<std::string> types; ///< of all parts that have it
+    std::set<std::string> types; ///< types in all parts that have it
     std::size_t elements = 0;
-    std::vector<const Attribute*> arrays; ///< one for each part that has it
+    std::vector<const Attribute*> arrays; ///< an array for each part that has it
 
     Json about() const { return fmt::format("{}", fmt::join(types, ", ")); }
 };

@@ -183,7 +183,7 @@ Given given_by_command_line(const Origin& origin, UpAxis up) {
     return out;
 }
 
-/// The options that give the first file the one value and the second the other.
+/// The options that give each file its value.
 std::string way_to_say(const char* option, const char* what, std::string_view from, std::string_view to,
                        bool first_states, bool second_states) {
     if (first_states && second_states)

@@ -173,7 +173,7 @@ std::string PairedPaths::text() const {
 std::vector<PairedPaths> pairs_in(const fs::path& a, const fs::path& b) {
     const auto in_a = meshes_in(a), in_b = meshes_in(b);
     std::vector<PairedPaths> pairs;
-    std::map<std::string, Namesakes> rest; // by path without suffix
+    std::map<std::string, Namesakes> rest; // the other files, by path without suffix
     const auto stem = [](const std::string& path) { return fs::path(path).replace_extension().string(); };
     for (const auto& path : in_a)
         if (in_b.contains(path))

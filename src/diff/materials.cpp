@@ -97,7 +97,7 @@ Surface of_material(const Surface& surface, const std::vector<Index>& materials,
     return out;
 }
 
-/// The materials of both, if there are several; else none.
+/// The materials of both, if there are several; otherwise none.
 std::set<Index> materials_to_compare(const std::vector<Index>& a, const std::vector<Index>& b) {
     if (a == b || a.empty() || b.empty()) return {};
     std::set<Index> all(a.begin(), a.end());
@@ -122,7 +122,7 @@ std::string elements_of(const Comparing& with, const char* elements, Index mater
                         : fmt::format("the {} of '{}'", elements, name);
 }
 
-/// Compares the faces of each material: by number if the faces are the same, else by position.
+/// Compares the faces of each material: by number if the faces are the same, otherwise by position.
 void compare_places(const Comparing& with) {
     const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
     const std::set<Index> all = materials_to_compare(a, b);

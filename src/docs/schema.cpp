@@ -20,7 +20,7 @@ Json with_expressions(Json schema);
 
 /// The schema, or an expression instead.
 Json or_expression(Json schema) {
-    if (schema.is_boolean()) return schema; // names a property, no more
+    if (schema.is_boolean()) return schema; // the schema only names a property
     schema = with_expressions(std::move(schema));
     Json described;
     for (const char* annotation : {"description", "default"})

@@ -85,7 +85,7 @@ struct MeshoptSettings {
 /// A tree of tiles, from few triangles for the whole to all triangles.
 struct TileSettings {
     std::size_t faces = 20000; ///< maximum per tile, except where borders need more
-    bool implicit = false;     ///< implicit tiling, else explicit
+    bool implicit = false;     ///< implicit tiling, otherwise explicit
     bool given_bits = false;   ///< positions must not get more bits than Draco or quantize ask for
 };
 

@@ -37,7 +37,7 @@ bool are_equal(const Mesh& a, const Mesh& b) {
                       [](const Attribute& x, const Attribute& y) { return are_equal(x, y); });
 }
 
-/// A hash of all arrays, so that meshes of equal hashes are nearly always equal.
+/// A hash of all arrays. Meshes with equal hashes are nearly always equal.
 std::uint64_t hash_of(const Mesh& mesh) {
     std::uint64_t h = 0;
     const auto add = [&](std::string_view bytes) { h = hashed(h, std::hash<std::string_view>{}(bytes)); };
@@ -50,7 +50,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
     return h;
 }
 
-/// Gives each of the parts, which are as large as each other, the first equal one.
+/// Finds the first equal part for each of these parts, which have the same size.
 void find_among(const std::vector<std::size_t>& parts, const Scene& scene, std::vector<std::size_t>& first) {
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_hash;
     for (const std::size_t p : parts) {

@@ -115,7 +115,7 @@ Json default_json(const Option& option) {
     return text;
 }
 
-/// Whether true gives a group its defaults, and false is as good as not giving it.
+/// Whether true gives a group its defaults, and false means the same as omitting it.
 bool is_switch(const Option& option) {
     return option.fields && option.may_be_true && !option.fields->shorthand;
 }
@@ -142,7 +142,8 @@ void add_conflicts(const std::vector<std::string>& names, Json& object) {
             if (name != other) object["dependentSchemas"][name]["properties"][other] = false;
 }
 
-/// One of the names is required. Each form names its property, as strict validators require.
+/// A schema that requires at least one of the names. Each form names its property, as strict validators
+/// require.
 Json any_of_these(const std::vector<std::string>& names) {
     Json forms = Json::array();
     for (const auto& name : names)
@@ -219,7 +220,7 @@ std::optional<std::size_t> choice_index(const Option& option, const Value& value
 
 namespace {
 
-/// Reads one option and checks its range.
+/// Reads an option and checks its range.
 bool parse_option(const Option& option, const Value& value, void* target, Problems& problems) {
     if (const auto on = is_switch(option) ? value.as_bool() : std::nullopt)
         return !*on || option.parse(option, Value::map({}, value.mark), target, problems);
@@ -251,7 +252,7 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
     return true;
 }
 
-/// The option that has the value among its choices, where the bare one cannot: `textures: webp`.
+/// The option that has the value among its choices, if the primary option lacks it: `textures: webp`.
 const Option* other_choice(const Declaration& declaration, const Option& primary, const Value& value) {
     static constexpr std::array texts{OptionKind::text, OptionKind::path, OptionKind::choice,
                                       OptionKind::list, OptionKind::group};
@@ -265,7 +266,7 @@ const Option* other_choice(const Declaration& declaration, const Option& primary
     return it == declaration.options.end() || &*it == &primary ? nullptr : &*it;
 }
 
-/// The options that accept a number, if the bare value must be a name: `split: 2`. Empty if none does.
+/// The options that accept a number, if the bare value must be a name: `split: 2`. Empty if no option does.
 std::string hint_of_number(const Declaration& declaration, const Option& primary, std::string_view owner,
                            const Value& value) {
     constexpr std::size_t most_told = 3;
@@ -281,7 +282,7 @@ std::string hint_of_number(const Declaration& declaration, const Option& primary
                        ways.empty() ? "" : " or ", last);
 }
 
-/// More names than one reads through are not listed.
+/// Longer lists of names are omitted, because users do not read them.
 constexpr std::size_t most_listed = 24;
 
 std::string where_listed(std::string_view owner, std::size_t names) {
@@ -303,7 +304,7 @@ std::string hint_of_bare_value(const Declaration& declaration, std::string_view 
     return where.empty() ? fmt::format("its options are: {}", fmt::join(names, ", ")) : where;
 }
 
-/// The primary option, where it takes the share that was given to one that counts: `faces: 10%`.
+/// The primary option, if it accepts the share that was given to a count option: `faces: 10%`.
 const Option* meant_share(const Declaration& declaration, const Option& option, const Value& value) {
     const Option* primary = declaration.primary();
     if (!primary || primary->kind != OptionKind::ratio || option.kind != OptionKind::integer ||
@@ -313,7 +314,7 @@ const Option* meant_share(const Declaration& declaration, const Option& option, 
     return value.text.ends_with('%') || (number && *number > 0 && *number < 1) ? primary : nullptr;
 }
 
-/// A bare value as the map that it is short for.
+/// The map for which a bare value is short.
 Value as_map(const Option& option, const Value& value) {
     return Value::map({{option.name, value.mark, value}}, value.mark);
 }
@@ -344,7 +345,7 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         return false;
     }
     bool good = true;
-    std::set<std::string> meant; // named by unknown names
+    std::set<std::string> meant; // options that unknown names mean
     for (const auto& entry : value.entries) {
         if (also_known.contains(entry.key)) continue;
         if (const Option* o = find(entry.key)) {

@@ -34,7 +34,7 @@ Json described(const Field& field) {
     return schema;
 }
 
-/// "filled holes 2, welded vertices 12" over all items of the list, in the order of their fields.
+/// The sums over all items of the list, in the order of their fields: "filled holes 2, welded vertices 12".
 std::string tally(const Field& list, const void* record) {
     std::string text;
     for (const Field& field : list.fields->all) {

@@ -105,7 +105,7 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
     const Value path = resolved(entry.value, scope, problems_);
     PathText text;
     if (!OptionType<PathText>::parse(path, text, problems_) || is_deferred(path)) {
-        has_scene = true; // it may load one, so do not report missing scenes
+        has_scene = true; // the included file may load a scene, so do not report missing scenes
         return {};
     }
     const fs::path file = settings_.places.input(text.text).lexically_normal();

@@ -63,10 +63,10 @@ struct ParamOptions {
     bool required = false;
     std::optional<std::string> min, max;
     std::vector<std::string> choices;
-    Type of = Type::list; ///< of each value of a list; list: any type
+    Type of = Type::list; ///< the type of each value of a list; list: any type
 
     bool is_list() const { return type == Type::list; }
-    /// The type of the value, or of each value of a list; list: any type.
+    /// The type of the value, or the type of each value of a list; list: any type.
     Type single() const { return is_list() ? of : type; }
 };
 
@@ -126,7 +126,7 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
 }
 
 /// Converts a path from the command line, or from a file in that folder, to the pipeline file's convention.
-/// The result is relative to the pipeline if that is the same file, else absolute.
+/// The result is relative to the pipeline if that is the same file, otherwise absolute.
 std::string from_working_directory(const std::string& text, const fs::path& folder_of_text,
                                    const PlanSettings& settings) {
     const fs::path given(text);

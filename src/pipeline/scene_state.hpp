@@ -14,12 +14,12 @@ namespace facetmill::pipeline {
 struct Recalled {
     const Step* step = nullptr;
     std::size_t trace = 0;    ///< its index in the trace of the run
-    double load_diagonal = 0; ///< before it
+    double load_diagonal = 0; ///< diagonal before the step
     cache::Memory memory;
 };
 
 struct SceneState {
-    Scene scene; ///< before the recalled steps
+    Scene scene; ///< the scene before the recalled steps
     std::vector<Recalled> recalled;
     /// The result of the last stage, as long as `scene` is that result.
     struct Left {
@@ -39,8 +39,8 @@ struct SceneState {
     std::optional<std::pair<std::string, cache::Memory>> loaded;
     bool without_cache = false;
     bool in_cells = false;        ///< no scene yet: the loaded mesh is larger than memory
-    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this one
-    std::size_t inherited = 0;    ///< how many recalled steps belong to the origin
+    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this flow
+    std::size_t inherited = 0;    ///< the number of recalled steps that belong to the origin
 
     /// True if `scene` is the current scene.
     bool is_here() const { return recalled.empty(); }

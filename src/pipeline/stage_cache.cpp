@@ -161,7 +161,7 @@ bool StageCache::recall(const Step& step, SceneState& flow, RunState& run, repor
     trace_.back().way = TracedStep::Way::ran;
     try {
         return recall_known(step, flow, run, stage);
-    } catch (const std::exception&) { // no memory, which the stage may need less of; or bytes nobody wrote
+    } catch (const std::exception&) { // a lack of memory, of which the stage may need less, or invalid bytes
         return false;
     }
 }

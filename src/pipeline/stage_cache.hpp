@@ -36,7 +36,7 @@ class StageCache {
 
     /// The state of a run before a stage, to decide afterwards whether its result may be stored.
     struct Before {
-        std::string key; ///< of the stage with this scene; empty: not stored
+        std::string key; ///< key of the stage with this scene; empty: not stored
         std::size_t inputs = 0, absent = 0, outputs = 0, staged = 0, checks = 0, warnings = 0,
                     unrepeatable = 0;
         double load_diagonal = 0;
@@ -49,8 +49,8 @@ class StageCache {
     /// Call it before a flow branches into these arms, so that common work is done once.
     void before_arms(SceneState& flow, const std::vector<Arm>& arms) const;
 
-    /// Brings the scene of a flow into memory: from the cache, or by running the recalled steps. Throws their
-    /// errors, and malformed (E-CHANGED) if an input has changed.
+    /// Brings the scene of a flow into memory: from the cache, or by running the recalled steps. Throws
+    /// their errors, and a malformed-input error (E-CHANGED) if an input has changed.
     void fetch(SceneState& flow);
 
   private:
@@ -70,7 +70,7 @@ class StageCache {
     const Folders& places_;
     Trace& trace_;
     bool loads_run_ = false;
-    std::vector<std::shared_ptr<const Document>> documents_; ///< of all scenes of the run
+    std::vector<std::shared_ptr<const Document>> documents_; ///< documents of all scenes of the run
 };
 
 } // namespace facetmill::pipeline

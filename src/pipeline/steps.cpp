@@ -161,7 +161,7 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
     }
     const Value::Entry* entry = stage_entry(as_map, problems_);
     if (!entry) {
-        has_scene = true; // it may have been the load; do not report missing scenes
+        has_scene = true; // the faulty step may be a load, so do not report missing scenes
         return;
     }
     const ControlItem* control = control_item(entry->key);

@@ -30,7 +30,7 @@ const char* outcome(const Check& check) {
 
 namespace {
 
-/// "[0, 0, 0]"
+/// For example "[0, 0, 0]".
 std::string point_text(const Vec3& p) {
     return fmt::format("[{}, {}, {}]", to_string(p.x), to_string(p.y), to_string(p.z));
 }
@@ -47,7 +47,7 @@ struct FoundText {
     std::string operator()(const std::vector<std::string>& names) const { return join_texts(names); }
 };
 
-/// "face 7 and 9 of 'part' at 1 2 3"
+/// For example "face 7 and 9 of 'part' at 1 2 3".
 std::string location_text(const EvidenceEntry& e) {
     std::string text;
     if (e.face) text += fmt::format("face {} ", *e.face);
@@ -58,7 +58,7 @@ std::string location_text(const EvidenceEntry& e) {
     return text;
 }
 
-/// "part 'wheel' 1200", "image 'wood' 2048 x 1024", "extension 'KHR_a' of 'b.glb'"
+/// For example "part 'wheel' 1200", "image 'wood' 2048 x 1024", "extension 'KHR_a' of 'b.glb'".
 std::string share_text(const EvidenceEntry& e) {
     using Of = EvidenceEntry::Of;
     const std::string amount = e.amount ? fmt::format(" {:.12g}", *e.amount) : "";

@@ -7,7 +7,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// [x, y, z]
+/// The point as [x, y, z].
 Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 void declare_box_corners(DeclareFields<Box>& d) {

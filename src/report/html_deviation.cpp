@@ -15,7 +15,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// "0.012", with a sign, and without one of a zero.
+/// The number with its sign; zero has no sign.
 std::string signed_text(double x) { return x == 0 ? "0" : fmt::format("{:+.3g}", x); }
 
 std::string length_text(const DeviationView& view, double x) {

@@ -26,7 +26,7 @@ void add_diagnostics(const Diagnostics& all, const char* kind, MarkdownRows& row
         rows.push_back({kind, markdown_escaped(d.id), markdown_escaped(d.message), markdown_escaped(d.hint)});
 }
 
-/// Without failed checks, which have a separate table.
+/// The messages except failed checks, which have a separate table.
 MarkdownRows message_rows(const RunRecord& record) {
     MarkdownRows rows;
     std::vector<RunError> errors;

@@ -57,7 +57,7 @@ std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::str
 
 bool Page::is_full() const { return bytes_ > most_bytes; }
 
-/// part: relative to the largest pictures.
+/// part: the size relative to the largest pictures.
 PictureSettings Page::sized_for_page(double part) const {
     PictureSettings settings = page_settings();
     if (bytes_ > bytes_of_large) {
@@ -117,7 +117,7 @@ DeviationView Page::distances(const Scene& scene, Reference& from) {
     std::optional<PictureSettings> settings; // empty: only numbers
     if (with_pictures_ && is_full()) record_.pictures_left_out += 3;
     if (with_pictures_ && !is_full()) {
-        settings = sized_for_page(0.75); // three side by side
+        settings = sized_for_page(0.75); // three pictures are side by side
         settings->camera = camera_for(seen);
     }
     Shown& earlier = *from.shown;
@@ -133,7 +133,8 @@ void Page::before(const PageStep& step, const Scene& scene) {
     if (step.loads || !step.measures || measured_stages_ >= most_measured) return;
     if (scene.face_count() > most_faces_of_a_stage) return;
     entering_ = reference_to(scene, fmt::format("the scene before '{}'", step.name));
-    if (loaded_ && loaded_->shown->is_same(*entering_->shown)) entering_->shown = loaded_->shown; // one tree
+    if (loaded_ && loaded_->shown->is_same(*entering_->shown))
+        entering_->shown = loaded_->shown; // both share a tree
 }
 
 void Page::after(const PageStep& step, const Scene& scene, StageRecord& stage, std::size_t first_output) {

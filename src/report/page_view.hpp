@@ -6,7 +6,7 @@
 
 namespace facetmill::report {
 
-/// Collects these scenes during a run. Calls throw like picture_of (limit).
+/// Collects these scenes during a run. Calls throw the errors of picture_of (limit).
 class PageView {
   public:
     /// expected: the approximate number of outputs. Uses the page's textures and references.

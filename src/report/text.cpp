@@ -29,7 +29,7 @@ std::string size_change(const StageRecord& stage) {
 }
 
 enum class Form { report, terminal };
-constexpr std::size_t most_lines = 20; ///< per stage on a terminal
+constexpr std::size_t most_lines = 20; ///< lines per stage on a terminal
 
 void add_warning(const Diagnostic& warning, const std::string& lead, Painted& out) {
     out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);

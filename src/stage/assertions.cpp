@@ -150,7 +150,7 @@ bool lacks_faces(const Property& property, const Properties& properties) {
            (property.of_faces || !property.measure);
 }
 
-/// True if a measured property must equal one number. That is rarely intended, unless the number is 0.
+/// True if a measured property must equal a number. This is rarely intended, unless the number is 0.
 bool asks_exactly(const Property& property, const Bound& bound) {
     using enum PropertyKind;
     const bool measured = property.kind == number || property.kind == angle || property.kind == length ||

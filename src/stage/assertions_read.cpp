@@ -82,7 +82,7 @@ bool read_word(const Property& property, const Value& value, Assertion& out, Pro
     return index.has_value();
 }
 
-/// One length, or three for a corner: as a list, or in the one-liner's syntax, "0,0,20cm".
+/// Reads a length, or three lengths for a corner, as a list or in the one-liner's syntax "0,0,20cm".
 bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, std::vector<Mark>& marks,
                   Problems& problems) {
     if (count == 1) {

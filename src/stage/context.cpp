@@ -76,7 +76,7 @@ Context::Context(RunState& run, report::StageRecord& record, const PartFilter& o
     : run_(run), record_(record), only_(only), entering_(entering), where_(where) {}
 
 void Context::for_each_part(Scene& scene, const std::function<void(Part&)>& body) {
-    double all = 0, done = 0; // in faces
+    double all = 0, done = 0; // numbers of faces
     for (const auto& part : scene.parts)
         if (selects(part, scene)) all += static_cast<double>(1 + part.mesh.face_count());
     for (auto& part : scene.parts) {

@@ -26,7 +26,7 @@ struct PartFilter {
 /// Folders for reading and writing files.
 struct Folders {
     std::filesystem::path input_base;  ///< base of relative paths that a pipeline file reads
-    std::filesystem::path output_base; ///< --output-dir
+    std::filesystem::path output_base; ///< see --output-dir
     /// --asset-root: folders, besides its own, in which a loaded file may refer to files.
     std::vector<std::filesystem::path> asset_roots = {};
     /// The path of an input file: absolute, or relative to input_base; "-" stays.
@@ -62,8 +62,8 @@ class Context {
     /// Deselects parts of lines. Returns the number of deselected parts.
     std::size_t leave_lines(const Scene& scene);
 
-    /// The length in world scene units. Records the result under the option's name. Throws usage (E-UNIT) for
-    /// a physical unit when the scene has none.
+    /// The length in world scene units. Records the result under the option's name. Throws a usage error
+    /// (E-UNIT) for a physical unit if the scene has no unit.
     double resolve(const Length& length, const Scene& scene, std::string_view option,
                    const Part* part = nullptr);
 
@@ -71,9 +71,9 @@ class Context {
     SurfaceSize size_before(const Scene& scene, std::size_t part) const;
     /// Stores the size of a part after the stage, so that it need not be measured again.
     void keep_size(std::size_t part, const SurfaceSize& size);
-    /// [parts] the stored sizes; empty when there are none or the scene has other parts.
+    /// [parts] The stored sizes; empty without sizes, or if the scene has other parts.
     std::vector<std::optional<SurfaceSize>> kept_sizes(const Scene& scene) const;
-    /// [parts] sets the surfaces of the scene before the stage.
+    /// Sets the surfaces of the scene's parts before the stage.
     void know_surfaces(const std::vector<PartSurface>& surfaces);
 
     void warn(std::string id, std::string message, std::string hint = {});
@@ -90,7 +90,7 @@ class Context {
     }
 
     /// Stages a file for writing, with its path as in the options, and records it among the outputs. Throws
-    /// like io::Outputs::add.
+    /// the errors of io::Outputs::add.
     void output(const std::string& path, io::Span bytes);
 
     /// Prevents caching, because the result may differ next time for the same scene, options and inputs.
@@ -106,7 +106,7 @@ class Context {
     void record_input(report::FileRecord file);
     /// Records a missing file that an input refers to.
     void record_absent(std::string path) { run_.record.absent.push_back(std::move(path)); }
-    /// The surface of the scene after the last load if a contract compares with it, else null.
+    /// The surface of the scene after the last load if a contract compares with it, otherwise null.
     const Surface* loaded() const { return run_.loaded.get(); }
     const Mark& where() const { return where_; }
     const std::string& name() const { return record_.name; }
@@ -118,7 +118,7 @@ class Context {
     Box entering_;
     Mark where_;
     bool leaves_lines_ = false;
-    std::vector<std::optional<SurfaceSize>> sizes_before_, sizes_after_; ///< [parts]
+    std::vector<std::optional<SurfaceSize>> sizes_before_, sizes_after_; ///< [parts] sizes
 };
 
 } // namespace facetmill

@@ -22,7 +22,7 @@ const Declaration& deviation_declaration() {
     return declaration;
 }
 
-/// "0.0123 (0.51 % of the diagonal)".
+/// The value as text: "0.0123 (0.51 % of the diagonal)".
 std::string found_text(const DeviationResult& measured, double value) {
     if (!std::isfinite(value)) return "nothing to compare with";
     return fmt::format("{:.6g} ({} of the diagonal)", value, percentage(measured.percent(value), 4));
@@ -135,7 +135,7 @@ void check_deviation(const DeviationLimits& limits, const LimitMarks& where, con
         report::Check c;
         c.name = name;
         c.where = where[which];
-        // A percentage without a reference is of the diagonal of the comparison scene.
+        // A percentage without a reference refers to the diagonal of the comparison scene.
         const bool of_reference = limit->kind == Length::Kind::percent && limit->of == Length::Of::stage;
         const double most =
             of_reference ? limit->amount / 100 * measured.diagonal : context.resolve(*limit, scene, name);

@@ -52,7 +52,7 @@ namespace {
 /// in a comparison.
 void warn_of_sizes(const std::string& name, Unit others, const Scene& other, const Scene& scene,
                    Context& context) {
-    constexpr double apart = 100; // in a picture of 800 pixels, the smaller scene has 8
+    constexpr double apart = 100; // at this ratio, the smaller scene has 8 of 800 pixels
     const double mine = diagonal(scene.bounds()), its = diagonal(other.bounds());
     if (!(mine > 0 && its > 0) || (mine < apart * its && its < apart * mine)) return;
     if (others != Unit::unknown && scene.unit != Unit::unknown) return;

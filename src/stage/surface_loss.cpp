@@ -43,7 +43,7 @@ double share(MayLose may_lose) {
     return 1;
 }
 
-/// The loss of a part, empty if allowed: "none of its 12 faces is left".
+/// Describes the loss of a part: "none of its 12 faces is left". Empty if the loss is allowed.
 std::string loss(const PartSurface& before, const PartSurface& after, MayLose may_lose) {
     if (before.faces == 0 || may_lose == MayLose::all) return {};
     if (after.faces == 0)
@@ -77,7 +77,7 @@ class FacingArea {
         const Vec3 rows[] = {{place.m[0][0], place.m[0][1], place.m[0][2]},
                              {place.m[1][0], place.m[1][1], place.m[1][2]},
                              {place.m[2][0], place.m[2][1], place.m[2][2]}};
-        double squares = 0; // of the transformed normals
+        double squares = 0; // sum of the squares of the transformed normals
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3 c = cross(rows[(i + 1) % 3], rows[(i + 2) % 3]);
             for (std::size_t k = 0; k < 3; ++k) squares += c[k] * dot(by_[k], c);

@@ -47,7 +47,7 @@ std::optional<std::string> why_primitive_not(const Json& json, const gltf::JsonC
     if (const auto extensions = primitive.find("extensions"))
         for (const char* name : {"KHR_draco_mesh_compression", "EXT_mesh_manifold"})
             if (extensions->find(name)) return fmt::format("{} uses {}", primitive.path(), name);
-    if (!gltf::makes_triangles(primitive)) return {}; // it is skipped
+    if (!gltf::makes_triangles(primitive)) return {}; // the primitive is skipped
     if (primitive.natural_or("mode", triangle_list) != triangle_list)
         return fmt::format("{} has triangle strips or fans", primitive.path());
     const gltf::JsonCursor position = primitive.at("attributes").at("POSITION");
@@ -237,7 +237,7 @@ class GltfReader final : public RowReader {
     Identity identity_;
     gltf::Chunks chunks_;
     Json json_;
-    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< next to the document
+    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< buffer files next to the document
 };
 
 } // namespace

@@ -12,16 +12,16 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr std::size_t with_colour = 6; ///< numbers of a vertex
+constexpr std::size_t with_colour = 6; ///< count of numbers in a vertex with a colour
 constexpr std::size_t longest_word = 20;
 
 /// The kind and data of a statement.
 struct Statement {
     enum class Kind { other, vertex, face };
     Kind kind = Kind::other;
-    std::string word; ///< of others
+    std::string word; ///< keyword of other statements
     std::array<double, 8> numbers{};
-    std::size_t count = 0;             ///< of numbers
+    std::size_t count = 0;             ///< count of numbers
     std::vector<std::int64_t> corners; ///< as written: from 1; negative: relative to the last vertex
     std::int64_t line = 0;
 };
@@ -49,7 +49,7 @@ class ObjReader final : public RowReader {
         TextWindow window(*file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', &sum);
         out.begin_group(identity_);
         const std::uint64_t base = out.vertices();
-        std::int64_t highest = 0; // of the vertices that faces use, from 1
+        std::int64_t highest = 0; // highest vertex that faces use, from 1
         Statement s;
         while (window.left() > 0) {
             window.item([&](io::Text& text) { parse(text, s); });
@@ -90,7 +90,7 @@ class ObjReader final : public RowReader {
         } else {
             s.word.assign(word.substr(0, longest_word));
             while (!text.word_on_line().empty()) {
-            } // including continuation lines
+            } // includes continuation lines
         }
         text.next_line();
     }

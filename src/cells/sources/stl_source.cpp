@@ -136,7 +136,7 @@ class StlSource final : public FaceSource {
     std::uint64_t count_ = 0;
 };
 
-/// Text as io/stl/read.cpp reads it.
+/// Reads text like io/stl/read.cpp.
 class StlReader final : public RowReader {
   public:
     StlReader(const io::Input& input, const io::ReadSettings& settings, std::size_t memory, bool or_none)
@@ -213,10 +213,10 @@ class StlReader final : public RowReader {
             facet = same_word(word, "facet");
             if (!facet && !same_word(word, "endsolid")) ahead.expected("'facet' or 'endsolid'");
             if (!facet) {
-                text.next_line(); // the same name, another, or none
+                text.next_line(); // skips the name, which may differ or be missing
                 return;
             }
-            text.rest_of_line(); // the normal
+            text.rest_of_line(); // skips the normal
             expect(text, "outer");
             expect(text, "loop");
             for (Vec3& p : corners) {

@@ -31,7 +31,7 @@ void tell_of_crossings(Work& work, std::string why, const Vec3& at) {
     work.not_done.push_back({"self_intersections", std::move(why), at});
 }
 
-/// The intersections of the mesh. If too many boxes meet, it searches none and reports that.
+/// The intersections of the mesh. If too many boxes meet, does not search and reports this.
 SelfIntersections affordable_crossings(Work& work) {
     const std::size_t free = work.max_box_pairs() - work.budget.box_pairs;
     SelfIntersections found = crossings(work.mesh, {}, work.max_box_pairs());
@@ -111,7 +111,7 @@ bool one_round(Work& work, const CleanSettings& s) {
         did(resolve_t_junctions(work, s.t_junctions == Nearness::near ? s.tolerance : 0));
     if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.tolerance : 0));
     steps.next();
-    if (s.holes && s.non_manifold) { // holes that touch at a vertex would merge when the vertex is split
+    if (s.holes && s.non_manifold) { // splitting vertices afterwards would merge holes that touch at a vertex
         const std::size_t told = work.not_done.size();
         did(fill_holes(work, *s.holes, nullptr, may_cross));
         work.not_done.resize(told); // holes that stay are reported below
@@ -125,7 +125,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.components) did(remove_components(work, *s.components));
     if (s.inner_components) did(remove_inner_components(work));
     if (s.isolated && !work.cloud) did(remove_isolated(work));
-    // Last, so that no other step processes surfaces only a few rounding steps apart.
+    // This step is last, so that no other step processes surfaces that are only a few rounding steps apart.
     if (s.apart && s.single && s.non_manifold && s.weld != Nearness::off && !changed) did(move_apart(work));
     return changed;
 }

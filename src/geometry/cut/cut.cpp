@@ -39,7 +39,7 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
     const CutMemory::Entry* known = on.memory ? on.memory->find(cut.plane) : nullptr;
     const double reach = on.snap > 0 ? on.snap * normal_length(cut.plane) : 0;
     const double snap = std::isfinite(reach) ? reach : 0;
-    const double rounding = std::ldexp(snap, -27); // 4 units of a double's last place
+    const double rounding = std::ldexp(snap, -27); // 4 units in a double's last place
     const auto classify = [&](const Vec3& p, Tally& t) -> std::int8_t {
         const double s = side(cut.plane, p);
         if (s == 0) {
@@ -95,7 +95,7 @@ void classify_faces(PlaneCut& cut) {
     });
 }
 
-/// The faces whose class the predicate likes, ascending.
+/// The faces whose class satisfies the predicate, ascending.
 template <class Predicate>
 std::vector<Index> faces_where(const PlaneCut& cut, Predicate&& likes) {
     constexpr std::size_t chunk = 65536;
@@ -113,11 +113,11 @@ std::vector<Index> faces_where(const PlaneCut& cut, Predicate&& likes) {
     return all;
 }
 
-/// A corner whose edge the plane crosses: its wedges, that at the lower vertex first, and where the answer
-/// goes.
+/// A corner whose edge the plane crosses: the wedges of the edge (the wedge at the lower vertex first), and
+/// the slot for the result.
 struct Crossing {
     Index low, high; ///< wedges
-    Index slot;      ///< into PlaneCut::crossings
+    Index slot;      ///< index in PlaneCut::crossings
 };
 
 std::vector<Crossing> find_crossings(PlaneCut& cut) {
@@ -143,7 +143,7 @@ double parameter_at(const PlaneCut& cut, Index low, Index high) {
 
 std::uint64_t edge_key(Index low, Index high) { return std::uint64_t{low} << 32 | high; }
 
-/// Appends the crossings of faces that stay whole at the edges where others are cut.
+/// Appends the crossings of faces that stay whole, at edges where other faces are cut.
 void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Crossing>& found, Index& slots) {
     const Mesh& mesh = *cut.mesh;
     std::vector<std::uint64_t> edges;
@@ -170,7 +170,7 @@ void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Cro
     }
 }
 
-/// One wedge per pair of wedges.
+/// Makes a new wedge per pair of wedges.
 void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings, Index slots) {
     const std::size_t wedges = cut.mesh->wedge_count();
     const int bits = static_cast<int>(std::bit_width(wedges));
@@ -190,7 +190,7 @@ void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings, Index slots) {
     });
 }
 
-/// One vertex per edge: the new wedges again, but by vertices.
+/// Makes a new vertex per edge, by grouping the new wedges by vertices.
 void make_vertices(PlaneCut& cut) {
     const Mesh& mesh = *cut.mesh;
     if (!mesh.has_seams()) {
@@ -233,7 +233,7 @@ CrossingPoints::CrossingPoints(const Plane& plane) : axis_(axis_of(plane)) {
 
 double CrossingPoints::parameter(double side_of_a, double side_of_b) {
     const double t = side_of_a / (side_of_a - side_of_b); // the signs differ and neither is 0
-    return t >= 0 && t <= 1 ? t : 0.5;                    // overflow only
+    return t >= 0 && t <= 1 ? t : 0.5;                    // outside only by overflow
 }
 
 Vec3 CrossingPoints::operator()(const Vec3& a, const Vec3& b, double t) const {
@@ -246,7 +246,7 @@ Vec3 CrossingPoints::operator()(const Vec3& a, const Vec3& b, double t) const {
 
 bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
 
-/// At every edge the directions of the faces cancel.
+/// Whether the directions of the faces cancel at every edge.
 bool is_closed(const Mesh& mesh) {
     const EdgeTable table = build_edges(mesh);
     for (Index e = 0; e < table.size(); ++e) {
@@ -258,8 +258,8 @@ bool is_closed(const Mesh& mesh) {
 }
 
 namespace {
-/// Numbers that are 32-bit floats: whether all are multiples of a step, and enough of them differ that it
-/// does not happen to rounded ones, of which half are odd multiples of half of it: by 2^-24.
+/// Tests 32-bit floats: whether all are multiples of a step, and enough of them differ to exclude chance
+/// (2^-24). Half of rounded numbers would be odd multiples of half a step.
 struct Multiples {
     bool all = true;
     std::set<double> some{};
@@ -275,8 +275,8 @@ struct Multiples {
 
 double float32_rounding(const Mesh& mesh) {
     const double ulp = float32_ulp(mesh.bounds()), far = std::ldexp(ulp, 23);
-    Multiples farthest;                 // whose floats are one ulp apart
-    std::array<Multiples, 3> of_axis{}; // whose floats are all less far apart
+    Multiples farthest;                 // the coordinates whose floats are one ulp apart
+    std::array<Multiples, 3> of_axis{}; // per axis, the coordinates with finer floats
     for (const Vec3& p : mesh.positions) {
         if (!is_float32(p)) continue;
         bool any = farthest.all;

@@ -44,7 +44,7 @@ void declare_way(DeclareFields<DirectedDeviation>& d) {
     d.object("at", at, "The position of the maximum.", declare_place).null_when("nothing was measured");
 }
 
-/// The four measures in percent of the diagonal.
+/// Declares the four measures in percent of the diagonal.
 void declare_percent(DeclareFields<DeviationResult>& d) {
     const auto percent = [](double (DeviationResult::*length)() const) {
         return [length](const DeviationResult& r) { return r.percent((r.*length)()); };

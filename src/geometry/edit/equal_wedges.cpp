@@ -53,7 +53,7 @@ Groups wedges_of_vertices(const Mesh& mesh) {
     return g;
 }
 
-/// The first of the wedges of one vertex, which ascend, that each of them equals.
+/// For each of a vertex's wedges (ascending), finds the first equal wedge.
 void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, std::vector<Index>& different,
                           std::vector<Index>& representative) {
     constexpr std::size_t few = 32; // up to this many different wedges are compared linearly
@@ -76,7 +76,7 @@ void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, 
             i > 0 && bits.compare(sorted[i - 1], sorted[i]) == 0 ? representative[sorted[i - 1]] : sorted[i];
 }
 
-/// Keeps the wedges that represent themselves, in order; attributes follow.
+/// Keeps only wedges that represent themselves, in order, with their attributes.
 void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) {
     std::vector<Index> kept, number(representative.size());
     for (Index w = 0; w < representative.size(); ++w)

@@ -1,4 +1,4 @@
-// The properties that each face has: angles, edges, aspect ratio, planarity, and the wall under it.
+// Implements the properties of faces: angles, edges, aspect ratio, planarity, and wall thickness.
 #include "base/math/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/spatial/rays_walk.hpp"
@@ -40,7 +40,7 @@ double edge_length(const Mesh& mesh, Index f, Index c) {
     return length(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
 }
 
-/// The worst of the face's triangles.
+/// The worst aspect ratio of the face's triangles.
 double worst_aspect_ratio(const Mesh& mesh, Index f) {
     double worst = 0;
     const Index begin = mesh.face_begin(f);
@@ -59,7 +59,7 @@ double nonplanarity(const Mesh& mesh, Index f) {
     return farthest;
 }
 
-/// [faces] value(face)
+/// [faces] The results of value(face).
 template <class Value>
 std::vector<double> of_each_face(const Mesh& mesh, Value&& value) {
     std::vector<double> values(mesh.face_count());
@@ -67,7 +67,7 @@ std::vector<double> of_each_face(const Mesh& mesh, Value&& value) {
     return values;
 }
 
-/// [faces] the least, or the most, of value(mesh, face, corner) over the corners of each.
+/// [faces] The smallest, or the largest, value(mesh, face, corner) over the corners of each face.
 template <class Value>
 std::vector<double> least_of_corners(const Mesh& mesh, Value&& value) {
     return of_each_face(mesh, [&](Index f) {
@@ -87,8 +87,8 @@ std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 
-/// The distance along d, of length 1, from p to a triangle that the ray meets. The result is limited to the
-/// corners' distances, because rounding may cancel the angle of a grazing ray.
+/// The distance from p along the unit vector d to a triangle that the ray meets. The result is limited to
+/// the corners' distances, because rounding may cancel the angle of a grazing ray.
 double meets_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 n = cross(b - a, c - a);
     const auto [least, most] = std::minmax({dot(a - p, d), dot(b - p, d), dot(c - p, d)});
@@ -127,7 +127,7 @@ std::vector<double> wall_thicknesses(const Mesh& mesh) {
             while (walk.step([&](Index t) {
                 if (tree.face(t) == face) return ways[f];
                 const auto [a, b, c] = tree.triangle(t);
-                if (signs.passes(a, b, c) != 1) return ways[f]; // it does not leave through the front
+                if (signs.passes(a, b, c) != 1) return ways[f]; // the ray does not leave through the front
                 const double at = meets_at(p, d, a, b, c);
                 if (at >= 0) ways[f] = std::min(ways[f], at);
                 return ways[f];

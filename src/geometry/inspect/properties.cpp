@@ -1,4 +1,4 @@
-// The table of properties. To add one: a row here (with its function, here or among
+// The table of properties. To add a property, add a row here (with its function, here or in
 // geometry/inspect/measures.hpp), and a row in tests/stages/validate_table_test.cpp.
 #include "geometry/inspect/measures.hpp"
 
@@ -15,7 +15,7 @@ using Kind = PropertyKind;
 
 std::optional<double> count_of(const Pairs& pairs) { return static_cast<double>(pairs.size()); }
 
-/// A cavity's front looks into it, which it does not show by itself.
+/// The front of a cavity faces into the cavity, but its mesh does not show that it is a cavity.
 std::optional<double> is_outward_oriented(const Measured& m) {
     if (m.settings.part_of_solid && m.properties.volume.value_or(0) < 0) return 1;
     return inward_faces(m.local).empty() ? 1 : 0;
@@ -57,7 +57,7 @@ constexpr const char* untangles = "clean: {self_intersections: all} unites or re
 constexpr const char* cuts_to_size = "transform moves and scales, clip and crop cut off";
 constexpr const char* no_stage = "no stage changes it: correct it where the mesh was made";
 
-// Constant, so that stages can be declared from it before main.
+// Constant, so that stages can be declared from the table before main.
 constexpr Property table[] = {
     {.name = "vertices",
      .also_called = "points verts vertex_count num_vertices target_vertices",
@@ -104,7 +104,7 @@ constexpr Property table[] = {
      .help = "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 with one component.",
      .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
      .member = &P::euler,
-     .locations = non_manifold_locations, // neither open nor a handle
+     .locations = non_manifold_locations, // these are neither openings nor handles
      .evidence = by_boundary,
      .lowest = -HUGE_VAL},
     {.name = "genus",

@@ -63,7 +63,7 @@ struct OfProperty {
     std::vector<std::string_view> other_names;
 };
 
-/// Details that the rows of properties lack.
+/// Details that are missing in the rows of properties.
 const std::vector<OfProperty>& of_properties() {
     static const std::vector<OfProperty> all{
         {"min_angle", "", {"smallest_angle", "minimum_angle"}},
@@ -172,7 +172,8 @@ std::string unit_of(const Quantity& quantity, Unit unit) {
 std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other) {
     const Mesh world = in_world(part);
     std::vector<double> values = quantity.of(quantity, world, other);
-    values.resize(world.count(quantity.domain), not_there); // curvature has vertices of faces that cross
+    values.resize(world.count(quantity.domain),
+                  not_there); // curvature also has values at vertices where faces cross
     for (double& x : values)
         if (!std::isfinite(x)) x = not_there;
     return values;

@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// The corners of the face without the coordinate along which its normal is longest, anticlockwise, relative
+/// The corners of the face, projected along the largest component of its normal, anticlockwise, and relative
 /// to the first corner so that numbers stay small.
 std::vector<Vec2> flattened(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), n = mesh.face_size(f);

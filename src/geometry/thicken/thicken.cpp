@@ -356,7 +356,7 @@ std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
                              [&](Index f, int way) { around += components.of_face[f] == p ? 0 : way; });
             buried[p] = around != (volume[p] < 0 ? 1 : 0);
         },
-        64); // one ray per component
+        64); // each component gets a ray
     return static_cast<std::size_t>(std::count(buried.begin(), buried.end(), 1));
 }
 

@@ -159,7 +159,7 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
 /// of_points: the document has points, which are read separately.
 void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
                 const ReadSettings& settings, bool of_points, ReadLog& log) {
-    std::map<int, std::size_t> first_part; // by mesh; instances copy the part
+    std::map<int, std::size_t> first_part; // the first part of each mesh; instances copy the part
     std::size_t vertices = 0;
     double bytes = 0; // the total size of copies, because a node needs few bytes of JSON
     auto all = placements(source.json(), frames);
@@ -351,7 +351,7 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
     for (const auto& [name, path] : images) {
         try {
             all.push_back({name, sha256(Input::open(path).stored())});
-        } catch (const Error&) { // it will not be copied either
+        } catch (const Error&) { // the writer will not copy this image either
         }
     }
     return all;

@@ -24,7 +24,7 @@ class MaterialContents {
 
   private:
     const Scene& scene_;
-    std::map<int, Json> parsed_; // by document number
+    std::map<int, Json> parsed_; // parsed documents, by document number
 };
 
 /// One entry for each animation, skin, camera and light of the scene's first document with nodes:

@@ -218,7 +218,7 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
         } catch (const Error& error) {
             std::error_code ignored;
             if (fs::exists(*file, ignored))
-                log.unrepeatable = true; // it is refused now, and may be readable in the next run
+                log.unrepeatable = true; // the next run may be able to read the file
             else
                 log.absent.push_back(*file);
             warn(log, input.name(),

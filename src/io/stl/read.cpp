@@ -200,7 +200,7 @@ class TextReader {
     void read_facet(Mesh& mesh) {
         if (mesh.positions.size() % (3 * 8192) == 0)
             ProgressScope::report(1 - static_cast<double>(text_.left()) / static_cast<double>(all_));
-        text_.rest_of_line(); // the normal
+        text_.rest_of_line(); // skips the normal
         expect("outer");
         expect("loop");
         for (int k = 0; k < 3; ++k) {

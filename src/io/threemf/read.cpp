@@ -16,7 +16,7 @@ namespace facetmill::io::threemf {
 
 namespace {
 
-/// The path of the main model: from the archive's relationships, else the path that all writers use.
+/// The path of the main model: from the archive's relationships, otherwise the path that all writers use.
 std::string main_model(Archive& archive, const std::string& name) {
     std::string path = "/3D/3dmodel.model";
     if (const auto relations = archive.file("/_rels/.rels"))

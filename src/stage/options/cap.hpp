@@ -25,7 +25,7 @@ void declare_triangulate(Declare<S>& d, bool S::*triangulate) {
              "Cut all faces into triangles; without this, a cut triangle may become a larger face.");
 }
 
-/// The index of an existing or future material of that name.
+/// The index of an existing or future material with this name.
 [[nodiscard]] Index material_number(const Scene& scene, const std::string& name);
 
 /// Sets the cap settings of clip or crop: the primitive (with the material's number, which add_material may
@@ -37,7 +37,7 @@ void set_cap(Settings& settings, const Scene& scene, const std::string& material
     settings.cap_primitive = Primitive{material_number(scene, material), {}, {}};
 }
 
-/// Appends a material of that name unless the scene has it. Call it only if a cap was made.
+/// Appends a material with this name unless it exists. Call it only if a cap was made.
 void add_material(Scene& scene, const std::string& name);
 
 /// Warns (W-CAP-OPEN) about each contour that the stage did not cap.

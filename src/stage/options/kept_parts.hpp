@@ -1,6 +1,6 @@
 #pragma once
 // Counts the results of a stage that cuts parts. In a scene of many parts, unchanged and removed parts are
-// normal; a warning is useful only if that is true of all.
+// normal. A warning is useful only if all parts are unchanged, or all are removed.
 
 #include "base/text/readable_numbers.hpp"
 #include "mesh/scene.hpp"
@@ -27,7 +27,7 @@ struct KeptParts {
     std::size_t all() const { return emptied + untouched + cut; }
     bool are_all_emptied() const { return emptied > 0 && emptied == all(); }
     bool are_all_untouched() const { return untouched > 0 && untouched == all(); }
-    /// "part 'wheel'", "the scene (12 parts)".
+    /// The subject of a warning: "part 'wheel'" or "the scene (12 parts)".
     std::string all_of_them() const {
         return all() == 1 ? fmt::format("part '{}'", first)
                           : fmt::format("the scene ({} parts)", grouped(all()));

@@ -34,7 +34,7 @@ class MaskOfParts {
     MaskOfParts(const Scene& scene, const std::optional<MaskSettings>& settings, Caps caps)
         : scene_(scene), settings_(settings), caps_(caps) {}
 
-    /// vertex_mask of the part, with 0 for fixed caps; empty when all vertices move.
+    /// vertex_mask of the part, with 0 for fixed caps; empty if all vertices move.
     std::vector<double> of(const Part& part);
     /// Warns (W-MASK) if the mask leaves no vertex of any part to move.
     void warn_if_idle(Context& context) const;
@@ -43,7 +43,7 @@ class MaskOfParts {
     const Scene& scene_;
     const std::optional<MaskSettings>& settings_;
     Caps caps_;
-    std::size_t vertices_ = 0, selected_ = 0, moving_ = 0; ///< of parts with a mask
+    std::size_t vertices_ = 0, selected_ = 0, moving_ = 0; ///< counts for parts with a mask
 };
 
 } // namespace facetmill

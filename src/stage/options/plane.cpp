@@ -17,7 +17,7 @@ bool refuse(const Value& value, std::string_view expected, Problems& problems) {
     return false;
 }
 
-/// "25%" or "25pct" as a percentage.
+/// Reads "25%" or "25pct" as a percentage.
 std::optional<double> percentage(std::string_view text) {
     for (const std::string_view sign : {"%", "pct"})
         if (text.ends_with(sign)) return parse_real(text.substr(0, text.size() - sign.size()));
@@ -29,7 +29,7 @@ bool is_centre(std::string_view text) { return text == "centre" || text == "cent
 constexpr std::string_view short_forms =
     "a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, [A, B, C, D])";
 
-/// "z=0.2": an axis and a position on it; ignores blanks.
+/// Reads "z=0.2": an axis and a position on it. Ignores blanks.
 bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
     if (value.is_list() || value.text.find(',') != std::string::npos)
         return OptionType<PlaneCoefficients>::parse(value, out.coefficients.emplace(), problems);

@@ -10,7 +10,7 @@
 namespace facetmill {
 
 std::optional<double> seen_rounding(const Mesh& mesh) {
-    constexpr double share_that_is_seen = 1e-5; // of the diagonal: less than a pixel of a large picture
+    constexpr double share_that_is_seen = 1e-5; // times the diagonal: less than a pixel of a large picture
     const Box bounds = mesh.bounds();
     const double apart = float32_ulp(bounds);
     if (apart <= share_that_is_seen * bounds.diagonal()) return {};

@@ -25,12 +25,12 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
         .schema = {{"enum", {"auto", "0", 0}}};
 }
 
-/// The float32 step at the mesh's position, if it is visible relative to its size and most positions are
-/// float32 numbers; else none.
+/// The float32 step at the mesh's position, if it is visible relative to the mesh's size and most positions
+/// are float32 numbers; otherwise none.
 [[nodiscard]] std::optional<double> seen_rounding(const Mesh& mesh);
 
-/// Warns (W-SNAPPED) about vertices treated as on a plane or an outline, from up to this distance. what: "the
-/// outline".
+/// Warns (W-SNAPPED) about vertices that were up to this distance away and treated as on a plane or outline.
+/// what: "the outline".
 void warn_of_snapping(const std::string& part, std::size_t vertices, double apart, const std::string& what,
                       Context& context);
 

@@ -28,7 +28,7 @@ std::string kind_of(const Mesh& mesh) {
         materials.insert(p.material);
     }
     if (materials.empty()) materials.insert(none);
-    std::set<std::string> attributes; // in any order
+    std::set<std::string> attributes; // the attributes in any order
     for (const Attribute& a : mesh.attributes)
         if (a.name != primitive_attribute)
             attributes.insert(fmt::format("{} {} {} {} {} {}", a.name, int(a.domain), int(a.role),

@@ -226,7 +226,7 @@ const RegisterStage registered = make_stage<TexturesStage>(
                   "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"},
      .changes_images = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all}, // it changes no mesh, so nothing is compared
+     .may_lose = MayLose::all}, // the stage changes no mesh, so nothing is compared
     declare_textures, declare_report);
 
 } // namespace

@@ -65,7 +65,7 @@ class Builder {
 
     Json original_, json_;
     std::vector<Bytes> no_buffers_;
-    std::map<std::size_t, Bytes> new_views_;     // by view index at the time of adding
+    std::map<std::size_t, Bytes> new_views_;     // new views, by view index at the time of adding
     std::map<std::size_t, std::string> filters_; // filters of new views
     Source source_, current_;
     std::vector<std::size_t> old_view_; // the original index of each remaining view

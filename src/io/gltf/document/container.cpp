@@ -92,8 +92,8 @@ Bytes join_glb(std::string_view json, Span binary) {
     return out;
 }
 
-// --- Only this file uses tinygltf, to resolve buffers: it decodes data URIs and calls our callbacks for
-// files. It gets one buffer at a time, never the whole document or images. Its parser does not check
+// --- Only this file uses tinygltf, to resolve buffers: tinygltf decodes data URIs and calls our callbacks
+// for files. It gets one buffer at a time, never the whole document or images. Its parser does not check
 // references, and refuses buffers that only EXT_meshopt_compression needs. Its model also loses unknown
 // contents (64-bit integers, nulls, empty objects).
 

@@ -176,7 +176,7 @@ bool JsonCursor::boolean_or(const char* key, bool otherwise) const {
 
 std::optional<JsonCursor> list(const Json& document, const char* name) {
     auto found = JsonCursor(document, "").find(name);
-    if (found) found->size(); // it must be an array
+    if (found) found->size(); // fails unless the value is an array
     return found;
 }
 

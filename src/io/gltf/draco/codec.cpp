@@ -14,7 +14,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Attribute names are glTF's if Draco knows the kind, else from the metadata.
+/// Attribute names are glTF's if Draco knows the kind, otherwise from the metadata.
 std::string name_of(const DracoColumn& column, std::set<std::string>& taken) {
     std::string stem = column.name;
     if (column.kind == DracoKind::normal && !taken.count("NORMAL"))

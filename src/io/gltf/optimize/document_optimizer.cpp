@@ -274,7 +274,7 @@ std::set<std::size_t> DocumentOptimizer::unnamed(const char* list, References re
     };
     std::set<std::size_t> dead = without_name(json_);
     for (const std::size_t i : named) dead.erase(i);
-    if (!all_) // one call per list, so that indices still have their old values
+    if (!all_) // calls once per list, so that indices still have their old values
         for (const std::size_t i : without_name(before_)) dead.erase(i);
     return dead;
 }

@@ -219,7 +219,7 @@ PartMeshes patch_meshes(Patch& patch, Claims claims) {
     const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
     std::vector<std::size_t> variant_of(parts.size());
     std::map<std::pair<int, int>, std::vector<Variant>>
-        families; // by document and mesh; each new part separately
+        families; // families by document and mesh; each new part is separate
     const auto key_of = [&](std::size_t i) {
         const Part& p = parts[i];
         const bool ours = p.document == patch.base && p.document >= 0 && p.source_mesh >= 0 &&
