@@ -15,6 +15,15 @@ all failures are listed with evidence: the first (or worst) faces and points at 
 only faces beyond the bound) and how many there are. Angles are in degrees. The mesh passes on
 unchanged.
 
+After `write`, each file that holds the current scene is read back and judged, in the units and axes of
+the scene. If a stage changed the scene after `write`, or no file holds all its parts, the scene itself
+is judged. Tilesets and meshes in cells are judged as scenes. The report names the file of each check.
+Limits of bytes, draw_calls and texture_pixels apply to each file written before, also in branches and
+in foreach, and need a `write` before them (E-LIMITS).
+
+If a check with a purpose (for) passes, `write` keeps the promise for the same scene: it repairs what
+32-bit floats spoil, reads the file back, and fails the run (exit 1) if the file does not fit.
+
 To introduce a check on existing assets, `baseline: known.json` with update_baseline (or run
 --update-baseline) writes what fails today. From then on, without update_baseline, those failures
 are waived (known), and new ones fail. A failure is identified by its check, its part and its

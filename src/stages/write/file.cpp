@@ -249,8 +249,9 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     (s.draco.on ? report.draco : report.quantize) = bits;
 }
 
-void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
-                 const Scene& scene, const io::WriteSettings& settings, Context& context) {
+WrittenScene stage_files(const io::Written& written, const std::filesystem::path& path,
+                         const io::Codec& codec, const Scene& scene, const io::WriteSettings& settings,
+                         Context& context) {
     const io::Outputs::File* main = nullptr;
     const std::size_t first = context.output_records().size();
     ProgressSteps steps({1, 3});
@@ -275,7 +276,14 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
              {},
              io::byte_kinds(told, staged.bytes, packed.empty() ? io::Span(file.bytes) : io::Span{})});
     }
-    if (!main || !context.reads_back()) return;
+    const WrittenScene staged{.path = context.output_records()[first].path,
+                              .file = main,
+                              .format = codec.name,
+                              .unit = scene.unit,
+                              .up = scene.up,
+                              .first_record = first,
+                              .records = context.output_records().size() - first};
+    if (!context.reads_back()) return staged;
     steps.next();
     const io::ReadBack back = io::read_back(context.outputs().staged(*main), codec, scene, settings, written);
     context.output_records()[first].read_back = back.json();
@@ -293,6 +301,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
             codec.can.full_precision && !settings.double_positions
                 ? "precision: full keeps all digits"
                 : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
+    return staged;
 }
 
 } // namespace facetmill::write_stage

@@ -50,8 +50,9 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
                  WriteReport& report);
 
 /// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go
-/// into the same folder. Warns if the file read back is less sound than the scene.
-void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
-                 const Scene& scene, const io::WriteSettings& settings, Context& context);
+/// into the same folder. Warns if the file read back is less sound than the scene. written: it has a file.
+[[nodiscard]] WrittenScene stage_files(const io::Written& written, const std::filesystem::path& path,
+                                       const io::Codec& codec, const Scene& scene,
+                                       const io::WriteSettings& settings, Context& context);
 
 } // namespace facetmill::write_stage

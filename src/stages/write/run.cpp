@@ -234,7 +234,9 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
         else
             context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
-    stage_files(written, o.path.text, *codec, out, settings, context);
+    WrittenScene file = stage_files(written, o.path.text, *codec, out, settings, context);
+    file.is_whole = lent.size() == scene.parts.size();
+    context.wrote(std::move(file));
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
@@ -268,6 +270,8 @@ const RegisterStage registered = make_stage<WriteStage>(
                   "write: {path: web.glb, normals: smooth, feature_angle: 40deg}",
                   "write: {path: out/tileset.json, tiles: 3d, draco: true}"},
      .tells = true,
+     .keeps_scene = true,
+     .writes_scene = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes through unchanged, so nothing is compared
      .crossing_faces = CrossingFacePolicy::name,
