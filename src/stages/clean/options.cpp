@@ -122,7 +122,8 @@ void declare_clean(Declare<CleanOptions>& d) {
         "precision", &CleanOptions::single,
         {{"full", false, "64-bit floats"},
          {"single", true,
-          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there"}},
+          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there; if this "
+          "makes the first faces intersect, they are resolved as by self_intersections: all"}},
         "The coordinates that vertices may have in their part.");
     d.option(
         "apart", &CleanOptions::apart,
