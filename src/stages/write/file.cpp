@@ -87,9 +87,10 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
                            settings.quantize.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
-    return fmt::format(
-        "the 32-bit floats of {} {}: use clean before write, or write PLY, OBJ or OFF with precision: full",
-        codec.name, what);
+    return fmt::format("the 32-bit floats of {} {}: put clean: {{precision: single, self_intersections: "
+                       "all}} before write, or "
+                       "write PLY, OBJ or OFF with precision: full",
+                       codec.name, what);
 }
 
 /// The reason why a file is less sound than the scene, and the hint.

@@ -12,7 +12,7 @@ struct WriteReport {
         std::string why;
     };
     std::optional<double> factor;
-    std::optional<std::string> up;
+    std::optional<std::string> up, fits;
     std::optional<Bits> draco, quantize;
     std::optional<OriginReport> origin;
     std::optional<io::VertexCacheUse> order;

@@ -4,6 +4,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
+#include "stages/write/fit.hpp"
 #include "stages/write/help.hpp"
 
 #include <algorithm>
@@ -55,6 +56,17 @@ void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOption
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Mesh before = out.parts[k].mesh;
         if (give_tangents(out.parts[k], uvs, o, context) && !lent[k].mesh) lent[k].mesh = std::move(before);
+    }
+}
+
+/// Makes the written parts fit the purpose in the floats of the file.
+void keep_fit(Scene& out, std::vector<Lent>& lent, const Purpose& purpose, const io::Codec& codec,
+              Context& context) {
+    auto replaced = make_fit(out, purpose, codec, context);
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        if (!replaced[k]) continue;
+        if (lent[k].positions) replaced[k]->positions = *std::exchange(lent[k].positions, std::nullopt);
+        if (!lent[k].mesh) lent[k].mesh = std::move(replaced[k]);
     }
 }
 
@@ -166,6 +178,8 @@ void declare_write_report(DeclareFields<WriteReport>& d) {
         .only_when("it is not 1");
     d.field("up", &WriteReport::up, "The axis that points up in the file.")
         .only_when("the scene was turned for it");
+    d.field("fits", &WriteReport::fits, "The purpose of an earlier check, which the file read back fits too.")
+        .only_when("an earlier check had a purpose");
     d.object("origin", &WriteReport::origin, "The point that coordinates in the file count from.",
              [](DeclareFields<OriginReport>& f) {
                  f.field("offset", &OriginReport::offset, "The point, in the scene's units.");
@@ -221,6 +235,9 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     io::WriteSettings settings = settings_of(o, *codec, target);
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
+    const std::shared_ptr<const Purpose> purpose = context.trail().purpose;
+    const bool has_grid = settings.draco.on || settings.quantize.on; // coarser than floats
+    if (purpose && !settings.double_positions && !has_grid) keep_fit(out, lent, *purpose, *codec, context);
     choose_bits(settings, o, *codec, out, report);
     settings.draco.keep_decoded = context.reads_back();
     steps.next();
@@ -236,6 +253,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
     WrittenScene file = stage_files(written, o.path.text, *codec, out, settings, context);
     file.is_whole = lent.size() == scene.parts.size();
+    if (purpose && !codec->can.tiles && check_fit(file, *purpose, out, settings, context))
+        report.fits = purpose->name;
     context.wrote(std::move(file));
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
