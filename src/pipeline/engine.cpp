@@ -138,6 +138,28 @@ bool run_arm(Engine& run, const Step& step, const Arm& arm, SceneState& inside) 
     return done;
 }
 
+/// Gives each arm the trail of the scene that enters, and collects the files that the arms write.
+class ArmTrails {
+  public:
+    explicit ArmTrails(RunState& state) : state_(state), entered_(state.trail) {}
+    void arm_done() {
+        auto& all = state_.trail.written;
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(entered_.written.size());
+        written_.insert(written_.end(), std::make_move_iterator(first), std::make_move_iterator(all.end()));
+        state_.trail = entered_;
+    }
+    void finish() {
+        auto& all = state_.trail.written;
+        all.insert(all.end(), std::make_move_iterator(written_.begin()),
+                   std::make_move_iterator(written_.end()));
+    }
+
+  private:
+    RunState& state_;
+    SceneTrail entered_;
+    std::vector<WrittenScene> written_;
+};
+
 bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
     Scene& scene = flow.scene;
     std::vector<std::string> names;
@@ -163,7 +185,9 @@ bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
 
     std::vector<std::vector<NamedScene>> results(scene.parts.size());
     bool all_done = true;
+    ArmTrails trails(run.state);
     for (const auto& arm : arms) {
+        run.state.number_scene(true); // one part of a fit scene is fit
         const std::size_t p = parts[arm.part.value_or(0)];
         SceneState inside;
         inside.without_cache = flow.without_cache;
@@ -173,10 +197,13 @@ bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
         inside.scene.up = scene.up;
         if (!run.guarded(step, [&] { inside.scene.parts.push_back(scene.parts[p]); })) return false;
         all_done = run_arm(run, step, arm, inside) && all_done;
+        trails.arm_done();
         if (step.join) results[p].push_back({arm.name, std::move(inside.scene)});
     }
+    trails.finish();
     if (!step.join) return true;
     if (!all_done) return false;
+    run.state.number_scene(false);
     scene = with_parts_replaced(std::move(scene), std::move(results));
     flow.replaced();
     return true;
@@ -187,19 +214,23 @@ bool run_arms(Engine& run, const Step& step, SceneState& flow, bool needed) {
     std::vector<NamedScene> results;
     bool all_done = true;
     if (!run.guarded(step, [&] { run.cache.before_arms(flow, step.arms); })) return false;
+    ArmTrails trails(run.state);
     for (const auto& arm : step.arms) {
         const bool moved = &arm == &step.arms.back() && (step.join || !needed);
         SceneState inside;
         if (!run.guarded(step, [&] { inside = moved ? std::move(flow) : flow.branched_off(); })) return false;
         all_done = run_arm(run, step, arm, inside) && all_done;
+        trails.arm_done();
         if (moved)
             flow.spent_before_branch = inside.spent_before_branch;
         else
             flow.spend(inside.spent_before_branch); // no longer available to the next arm
         if (step.join) results.push_back({arm.name, std::move(inside.scene)});
     }
+    trails.finish();
     if (!step.join) return true; // the input scene continues, whatever the branches did
     if (!all_done) return false;
+    run.state.number_scene(false);
     flow.scene = joined(std::move(results));
     flow.replaced();
     return true;
@@ -282,6 +313,7 @@ bool Engine::run_stage(const Step& step, SceneState& flow,
                 .first_check = record().checks.size()};
     emit(event, &flow);
     const bool done = source(stage);
+    if (done && !step.info->keeps_scene) state.number_scene(step.info->moves);
     event.kind = done ? Event::Kind::after : Event::Kind::failed;
     emit(event, &flow);
     for (const auto& warning : stage.warnings) failures.warn(warning);

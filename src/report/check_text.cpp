@@ -22,6 +22,11 @@ std::string passed_text(const RunRecord& record) {
     return fmt::format("{} of {}", passed, record.checks.size());
 }
 
+std::string subject_text(const Check& check) {
+    if (check.file.empty() || check.part.empty()) return check.part + check.file;
+    return check.part + " in " + check.file;
+}
+
 const char* outcome(const Check& check) {
     if (check.waived) return "known";
     if (check.passed) return "passed";

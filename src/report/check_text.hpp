@@ -13,6 +13,8 @@ namespace facetmill::report {
 [[nodiscard]] std::string passed_text(const RunRecord& record);
 /// The outcome: "passed", "known", "failed" or "warned".
 [[nodiscard]] const char* outcome(const Check& check);
+/// The part and the file that the check refers to: "body", "body in a.glb", "a.glb"; empty: the scene.
+[[nodiscard]] std::string subject_text(const Check& check);
 /// The found value: "12", "true", "mm", "[0, 0, 0] to [1, 1, 1]", "not applicable".
 [[nodiscard]] std::string found_text(const Check& check);
 /// The distance of a number from its limit: "0.3 to spare (60 % of the limit)", "7 too many"; empty without

@@ -29,7 +29,8 @@ std::string all_rows(const RunRecord& record) {
     for (const Check& c : record.checks)
         rows += fmt::format("<tr>{}{}{}{}{}{}{}</tr>\n", cell(outcome_badge(c)), cell(code(c.name)),
                             cell(escaped(c.expected)), cell(escaped(found_text(c))),
-                            cell(escaped(margin_text(c))), cell(escaped(c.part)), cell(escaped(c.stage)));
+                            cell(escaped(margin_text(c))), cell(escaped(subject_text(c))),
+                            cell(escaped(c.stage)));
     return rows;
 }
 
@@ -83,7 +84,7 @@ std::string picture_of_check(const Check& c, std::size_t number) {
 
 std::string failure(const RunRecord& record, const Check& c, std::size_t number) {
     std::string terms = term("expected", c.expected) + term("found", found_text(c)) +
-                        term("margin", margin_text(c)) + term("part", c.part) +
+                        term("margin", margin_text(c)) + term("part", c.part) + term("file", c.file) +
                         term("evidence", locations_text(c)) + term("where", to_string(c.where)) +
                         term("what helps", c.hint);
     if (const std::string mend = can_be_asked(c) ? mending(record, c) : ""; !mend.empty() && !c.passed)
@@ -107,7 +108,7 @@ std::string check_section(const RunRecord& record) {
         out += fmt::format("<p class=\"soft\">{} more are in the table.</p>\n", grouped(failures - most));
     if (!out.empty()) out = "<h2>Checks that did not hold</h2>\n" + out;
     return out + table("Checks",
-                       heads({"outcome", "property", "expected", "found", "margin", "part", "stage"}),
+                       heads({"outcome", "property", "expected", "found", "margin", "part or file", "stage"}),
                        all_rows(record));
 }
 

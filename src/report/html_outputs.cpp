@@ -70,10 +70,18 @@ std::string shape_html(const OutputView& view, std::size_t number) {
     return out + fmt::format("<p class=\"soft\">{}</p>\n", note);
 }
 
-std::string one_output(const OutputView& view, std::size_t number) {
+/// ", 1.2 MB" if a file has the view's name.
+std::string size_of(const OutputView& view, const std::vector<FileRecord>& files) {
+    for (const FileRecord& file : files)
+        if (file.path == view.name) return ", " + sized(file.bytes);
+    return {};
+}
+
+std::string one_output(const OutputView& view, const RunRecord& record, std::size_t number) {
     std::string out = fmt::format(
-        "<section class=\"stage\">\n<h3>{}</h3>\n<p>{} faces{}</p>\n", escaped_path(view.name),
-        grouped(view.faces), view.input_faces > 0 ? fmt::format(" of {}", grouped(view.input_faces)) : "");
+        "<section class=\"stage\">\n<h3>{}</h3>\n<p>{} faces{}{}</p>\n", escaped_path(view.name),
+        grouped(view.faces), view.input_faces > 0 ? fmt::format(" of {}", grouped(view.input_faces)) : "",
+        size_of(view, record.outputs));
     if (view.deviation)
         out += deviation_html(*view.deviation, fmt::format("output-{}", number), view.name);
     else if (!view.no_deviation.empty())
@@ -86,7 +94,7 @@ std::string one_output(const OutputView& view, std::size_t number) {
 
 std::string output_sections(const RunRecord& record) {
     std::string out;
-    for (std::size_t i = 0; i < record.views.size(); ++i) out += one_output(record.views[i], i + 1);
+    for (std::size_t i = 0; i < record.views.size(); ++i) out += one_output(record.views[i], record, i + 1);
     return out.empty() ? out : "<h2>Results</h2>\n" + out;
 }
 

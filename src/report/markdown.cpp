@@ -43,9 +43,9 @@ MarkdownRows failed_rows(const RunRecord& record) {
     MarkdownRows rows;
     for (const auto& c : record.checks) {
         if (c.passed && !c.waived) continue;
-        rows.push_back({outcome(c), markdown_escaped(c.name), markdown_escaped(c.expected),
-                        markdown_escaped(found_text(c)), markdown_escaped(locations_text(c)),
-                        markdown_escaped(c.hint)});
+        rows.push_back({outcome(c), markdown_escaped(c.file.empty() ? c.name : c.name + " of " + c.file),
+                        markdown_escaped(c.expected), markdown_escaped(found_text(c)),
+                        markdown_escaped(locations_text(c)), markdown_escaped(c.hint)});
     }
     return rows;
 }

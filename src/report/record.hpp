@@ -60,7 +60,8 @@ struct Check {
     std::optional<double> min = {}, max = {};   ///< the allowed range of a number
     std::string hint = {};                      ///< after a failure: a stage that fixes it
     std::string part = {};                      ///< the part concerned; empty: the scene
-    std::optional<CheckEvidence> evidence = {}; ///< for a failed check: first locations, largest shares
+    std::string file = {};                      ///< the written file that was judged; empty: the scene
+    std::optional<CheckEvidence> evidence = {}; ///< of a failed check: first locations, largest shares
     std::optional<std::size_t> locations = {};  ///< number of failing locations, if different from found
     std::optional<std::size_t> fresh = {}; ///< failing locations missing in the baseline; empty without one
     bool waived = false;                   ///< it failed, but the baseline allows it; passed is true

@@ -115,6 +115,8 @@ void declare_check(DeclareFields<Check>& d) {
     d.field("hint", unless_empty(&Check::hint), "The stage that fixes it.")
         .null_when("it held, or no stage does");
     d.field("part", unless_empty(&Check::part), "The part that it refers to.").null_when("that is the scene");
+    d.field("file", unless_empty(&Check::file), "The written file that was read back and judged.")
+        .null_when("the scene was judged");
     d.field(
         "where", [](const Check& c) { return unless_empty(facetmill::to_string(c.where)); },
         "Its position in the pipeline.");

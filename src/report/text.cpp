@@ -74,8 +74,9 @@ void add_checks(const std::vector<Check>& checks, Form form, Painted& out) {
         else
             out += outcome(c);
         out += fmt::format(" {} ({}{}): expected {}, found {}{}\n", c.name, c.stage,
-                           c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
-                           where.empty() ? "" : "; " + where);
+                           (c.part.empty() ? "" : ", part " + c.part) +
+                               (c.file.empty() ? "" : ", file " + c.file),
+                           c.expected, found_text(c), where.empty() ? "" : "; " + where);
     }
 }
 

@@ -167,6 +167,11 @@ void Context::output(const std::string& path, io::Span bytes) {
         {fs::path(path).lexically_normal().string(), staged.bytes, staged.sha256, {}});
 }
 
+void Context::wrote(WrittenScene written) {
+    written.scene = run_.trail.scene;
+    run_.trail.written.push_back(std::move(written));
+}
+
 void Context::record_input(report::FileRecord file) {
     run_.outputs.protect(file.path, file.sha256);
     run_.record.inputs.push_back(std::move(file));

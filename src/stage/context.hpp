@@ -34,6 +34,27 @@ struct Folders {
     std::filesystem::path output(const std::string& text) const;
 };
 
+/// A scene as `write` staged it, for later checks.
+struct WrittenScene {
+    std::string path;                          ///< as the report names it
+    const io::Outputs::File* file = nullptr;   ///< the main file
+    std::string format;                        ///< of the codec
+    Unit unit = Unit::unknown;                 ///< of the numbers in the file
+    UpAxis up = UpAxis::unknown;               ///< the same
+    std::size_t first_record = 0, records = 0; ///< its files among the outputs of the run
+    bool is_whole = true;                      ///< it has all parts of the scene
+    std::size_t scene = 0;                     ///< the number of the scene
+};
+
+struct Purpose; // stage/purpose.hpp
+
+/// What the steps before the current one wrote and checked, on its way through branches.
+struct SceneTrail {
+    std::size_t scene = 0; ///< the number of the current scene
+    std::vector<WrittenScene> written;
+    std::shared_ptr<const Purpose> purpose; ///< that the current scene was found fit for, or null
+};
+
 /// State of a run that outlives its stages.
 struct RunState {
     Folders places;
@@ -43,6 +64,13 @@ struct RunState {
     std::shared_ptr<const Surface>
         loaded;            ///< the scene after the last load, when a contract compares with it
     bool read_back = true; ///< decodes written files again and compares them
+    SceneTrail trail;
+    std::size_t scenes = 0; ///< numbers given to scenes
+    /// Gives the scene another number. moved: the surface only moved, so it still fits its purpose.
+    void number_scene(bool moved) {
+        trail.scene = ++scenes;
+        if (!moved) trail.purpose.reset();
+    }
     /// The number of results that depended on more than scene, options and recorded inputs, such as free
     /// memory or a refused file.
     std::size_t unrepeatable = 0;
@@ -100,6 +128,11 @@ class Context {
     /// The files of the run, and their records.
     io::Outputs& outputs() { return run_.outputs; }
     std::vector<report::FileRecord>& output_records() { return run_.record.outputs; }
+    /// The written scenes and the checked purpose on the way to this stage.
+    const SceneTrail& trail() const { return run_.trail; }
+    /// Records a written scene; its number is set here.
+    void wrote(WrittenScene written);
+    void found_fit(std::shared_ptr<const Purpose> purpose) { run_.trail.purpose = std::move(purpose); }
     /// True if written files are decoded again and compared.
     bool reads_back() const { return run_.read_back; }
     /// Records an input with its SHA-256: outputs may replace it only with the same bytes.

@@ -65,10 +65,12 @@ struct StageInfo {
     std::string about; ///< a single line
     /// Paragraphs of short lines: its guarantees, its effect on attributes, its source.
     const char* details = "";
-    std::vector<std::string> examples; ///< list items of a pipeline, without the dash: "relax: 3"
-    bool checks = false; ///< it only checks: consecutive checks all run before a failure ends the branch
-    bool tells = false;  ///< it has an effect besides the scene: a file, or lines on the terminal
-    bool moves = false;  ///< it may move the whole scene, so distances from before are meaningless
+    std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
+    bool checks = false;      ///< it only checks: consecutive checks all run before a failure ends the branch
+    bool tells = false;       ///< it has an effect besides the scene: a file, or lines on the terminal
+    bool keeps_scene = false; ///< the scene leaves it as it entered
+    bool writes_scene = false;       ///< it writes the scene to a file, which later checks judge
+    bool moves = false;              ///< it may move the whole scene: distances from before are meaningless
     bool changes_images = false;     ///< it creates, drops or renames images that a write may export
     bool measures_deviation = false; ///< it reports how far it moved the surface
     LinesPolicy lines = LinesPolicy::leave;
@@ -114,6 +116,8 @@ class Stage {
     virtual MayLose may_lose() const { return info->may_lose; }
     /// How self-intersecting faces must be handled with these options.
     virtual CrossingFacePolicy crossing_faces() const { return info->crossing_faces; }
+    /// The given option that judges written files, so that a `write` must come before; empty: none.
+    virtual std::string judges_written() const { return {}; }
     /// True if these options compare with the scene as loaded.
     virtual bool compares_with_load() const { return false; }
     /// Like run, for a mesh larger than memory; only if info->works_on_cells.

@@ -1,5 +1,6 @@
 #include "geometry/clean/clean.hpp"
 
+#include "base/math/numbers.hpp"
 #include "base/progress.hpp"
 #include "geometry/boolean/solids.hpp"
 #include "geometry/clean/steps.hpp"
@@ -135,6 +136,38 @@ AttributeChanges changes_of(const Mesh& mesh, const AttributeChanges& mixed) {
     return mixed.empty() ? kept_changes(mesh.attributes) : mixed;
 }
 
+/// Runs rounds until one changes nothing. Returns their number.
+int run_rounds(Work& work, const CleanSettings& settings) {
+    constexpr int max_rounds = 32;
+    int count = 0;
+    ProgressRounds rounds;
+    for (bool changed = true; changed && count < max_rounds; ++count, rounds.next())
+        changed = one_round(work, settings);
+    return count;
+}
+
+bool rounding_moves(const Mesh& mesh) {
+    return std::any_of(mesh.positions.begin(), mesh.positions.end(),
+                       [](const Vec3& p) { return is_finite(p) && as_float32(p) != p; });
+}
+
+/// Whether faces intersect now that did not before. If some intersected before, those stay and the new ones
+/// are reported, because they cannot be told apart.
+bool is_tangled_by_rounding(Work& work, const Mesh& before) {
+    const SelfIntersections now = affordable_crossings(work);
+    if (now.too_many || now.count == 0) return false;
+    const SelfIntersections then = crossings(before, {}, work.max_box_pairs());
+    if (!then.too_many && then.count == 0) return true;
+    if (then.too_many || now.count > then.count)
+        work.not_done.push_back(
+            {"precision",
+             fmt::format("{} pairs of faces intersect after rounding to 32-bit floats, {} "
+                         "before; self_intersections: all resolves them",
+                         now.count, then.too_many ? "an unknown number" : fmt::format("{}", then.count)),
+             corner_mean(work.mesh, now.pairs[0].first)});
+    return false;
+}
+
 } // namespace
 
 std::size_t CleanCounts::total() const {
@@ -145,15 +178,19 @@ std::size_t CleanCounts::total() const {
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {
-    constexpr int max_rounds = 32;
     Work work;
+    std::optional<Mesh> exact; // before rounding, if nothing else would notice what it does
+    if (settings.single && settings.self_intersections == Untangle::off && rounding_moves(mesh)) exact = mesh;
     work.mesh = std::move(mesh);
     work.budget = settings.budget;
     work.cloud = work.mesh.face_count() == 0;
     CleanResult result;
-    ProgressRounds rounds;
-    for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds, rounds.next())
-        changed = one_round(work, settings);
+    result.rounds = run_rounds(work, settings);
+    if (exact && is_tangled_by_rounding(work, *exact)) {
+        CleanSettings untangling = settings;
+        untangling.self_intersections = Untangle::all;
+        result.rounds += run_rounds(work, untangling);
+    }
     result.changes = changes_of(work.mesh, work.changes);
     result.mesh = std::move(work.mesh);
     result.counts = work.counts;

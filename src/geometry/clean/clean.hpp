@@ -69,8 +69,11 @@ struct CleanSettings {
     Untangle self_intersections = Untangle::off;
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
-    double tolerance = 0; ///< the distance for Nearness::near
-    bool single = false;  ///< rounds positions to 32-bit floats, before the first step and at new vertices
+    double tolerance = 0; ///< for Nearness::near
+    /// Rounds positions to 32-bit floats, before the first step and at new vertices. If self_intersections is
+    /// off and rounding makes the first faces intersect, they are resolved as by `all`. If others intersected
+    /// before, the new ones are reported.
+    bool single = false;
     UntangleBudget budget;
 };
 

@@ -123,12 +123,14 @@ void declare_clean(Declare<CleanOptions>& d) {
         "precision", &CleanOptions::single,
         {{"full", false, "64-bit floats"},
          {"single", true,
-          "32-bit floats, as in glTF, STL and most PLY files; the result stays correct in such files"}},
-        "The precision of vertex coordinates.");
-    d.option("apart", &CleanOptions::apart,
-             "With precision: single, moves separated vertices at the same position apart by a few steps of "
-             "32-bit floats. Formats and programs that merge equal positions, such as STL and slicers, then "
-             "keep them separate.");
+          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there; if this "
+          "makes the first faces intersect, they are resolved as by self_intersections: all"}},
+        "The coordinates that vertices may have in their part.");
+    d.option(
+        "apart", &CleanOptions::apart,
+        "With precision: single: moves vertices that were separated at one position apart by a few steps "
+        "of 32-bit floats, so that formats and programs that merge equal positions (STL, slicers) do not "
+        "join them again.");
 }
 
 CleanSettings clean_steps_of(const CleanOptions& o) {

@@ -47,6 +47,7 @@ const RegisterStage registered = make_stage<EnsureStage>(
      .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
                   "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
      .checks = true,
+     .keeps_scene = true,
      .lines = LinesPolicy::work},
     declare);
 

@@ -222,6 +222,7 @@ const RegisterStage registered =
                                          "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
                                          "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
                             .tells = true,
+                            .keeps_scene = true,
                             .leaves_points = true,
                             .crossing_faces = CrossingFacePolicy::name},
                            declare_probe, declare_probe_report);

@@ -265,6 +265,7 @@ const RegisterStage registered = make_stage<RenderStage>(
                   "render: {path: curvature.png, attribute: mean_curvature, range: [-1, 1]}",
                   "render: {path: deviation.png, attribute: deviation}"},
      .tells = true,
+     .keeps_scene = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes unchanged, so a comparison is pointless
      .crossing_faces = CrossingFacePolicy::name},

@@ -161,6 +161,7 @@ const RegisterStage registered = make_stage<SectionStage>(
                   "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
                   "section: {count: 20}"},
      .tells = true,
+     .keeps_scene = true,
      .leaves_points = true},
     declare_section, declare_section_report);
 

@@ -86,10 +86,11 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
         return fmt::format("the grid of {} bits {}: use more bits of quantize.position, or no quantize",
                            settings.quantize.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
-        return fmt::format("32-bit floats {}: use precision: full to keep all bits", what);
-    return fmt::format(
-        "the 32-bit floats of {} {}: use clean before write, or write PLY, OBJ or OFF with precision: full",
-        codec.name, what);
+        return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
+    return fmt::format("the 32-bit floats of {} {}: put clean: {{precision: single, self_intersections: "
+                       "all}} before write, or "
+                       "write PLY, OBJ or OFF with precision: full",
+                       codec.name, what);
 }
 
 /// Explains why a file is less sound than the scene, with a hint.
@@ -248,8 +249,9 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     (s.draco.on ? report.draco : report.quantize) = bits;
 }
 
-void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
-                 const Scene& scene, const io::WriteSettings& settings, Context& context) {
+WrittenScene stage_files(const io::Written& written, const std::filesystem::path& path,
+                         const io::Codec& codec, const Scene& scene, const io::WriteSettings& settings,
+                         Context& context) {
     const io::Outputs::File* main = nullptr;
     const std::size_t first = context.output_records().size();
     ProgressSteps steps({1, 3});
@@ -274,7 +276,14 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
              {},
              io::byte_kinds(told, staged.bytes, packed.empty() ? io::Span(file.bytes) : io::Span{})});
     }
-    if (!main || !context.reads_back()) return;
+    const WrittenScene staged{.path = context.output_records()[first].path,
+                              .file = main,
+                              .format = codec.name,
+                              .unit = scene.unit,
+                              .up = scene.up,
+                              .first_record = first,
+                              .records = context.output_records().size() - first};
+    if (!context.reads_back()) return staged;
     steps.next();
     const io::ReadBack back = io::read_back(context.outputs().staged(*main), codec, scene, settings, written);
     context.output_records()[first].read_back = back.json();
@@ -284,13 +293,15 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
                                  fmt::join(back.losses, ", ")),
                      reason(back, codec, settings));
     if (back.too_far_for_floats())
-        context.warn("W-ROUNDED",
-                     fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are {:.2g} apart "
-                                 "so far from the origin (the diagonal is {:.4g})",
-                                 path.string(), back.position_error, back.float_step, back.diagonal),
-                     codec.can.full_precision && !settings.double_positions
-                         ? "precision: full keeps all digits"
-                         : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
+        context.warn(
+            "W-ROUNDED",
+            fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are {:.2g} apart so far "
+                        "from the origin (the diagonal is {:.4g})",
+                        path.string(), back.position_error, back.float_step, back.diagonal),
+            codec.can.full_precision && !settings.double_positions
+                ? "precision: full keeps all digits"
+                : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
+    return staged;
 }
 
 } // namespace facetmill::write_stage

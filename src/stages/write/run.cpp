@@ -4,6 +4,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
+#include "stages/write/fit.hpp"
 #include "stages/write/help.hpp"
 
 #include <algorithm>
@@ -55,6 +56,17 @@ void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOption
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Mesh before = out.parts[k].mesh;
         if (give_tangents(out.parts[k], uvs, o, context) && !lent[k].mesh) lent[k].mesh = std::move(before);
+    }
+}
+
+/// Makes the written parts fit the purpose in the floats of the file.
+void keep_fit(Scene& out, std::vector<Lent>& lent, const Purpose& purpose, const io::Codec& codec,
+              Context& context) {
+    auto replaced = make_fit(out, purpose, codec, context);
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        if (!replaced[k]) continue;
+        if (lent[k].positions) replaced[k]->positions = *std::exchange(lent[k].positions, std::nullopt);
+        if (!lent[k].mesh) lent[k].mesh = std::move(replaced[k]);
     }
 }
 
@@ -166,11 +178,13 @@ void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec
 } // namespace
 
 void declare_write_report(DeclareFields<WriteReport>& d) {
-    d.field("factor", &WriteReport::factor, "The factor that the unit of the file applied to lengths.")
-        .only_when("the factor is not 1");
-    d.field("up", &WriteReport::up, "The up axis of the file.")
-        .only_when("the scene was rotated for the file");
-    d.object("origin", &WriteReport::origin, "The origin of the coordinates in the file.",
+    d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
+        .only_when("it is not 1");
+    d.field("up", &WriteReport::up, "The axis that points up in the file.")
+        .only_when("the scene was turned for it");
+    d.field("fits", &WriteReport::fits, "The purpose of an earlier check, which the file read back fits too.")
+        .only_when("an earlier check had a purpose");
+    d.object("origin", &WriteReport::origin, "The point that coordinates in the file count from.",
              [](DeclareFields<OriginReport>& f) {
                  f.field("offset", &OriginReport::offset, "The point in the scene's units.");
                  f.field("parts", &OriginReport::parts, "The number of parts whose nodes are at this point.");
@@ -225,6 +239,9 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     io::WriteSettings settings = settings_of(o, *codec, target);
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
+    const std::shared_ptr<const Purpose> purpose = context.trail().purpose;
+    const bool has_grid = settings.draco.on || settings.quantize.on; // coarser than floats
+    if (purpose && !settings.double_positions && !has_grid) keep_fit(out, lent, *purpose, *codec, context);
     choose_bits(settings, o, *codec, out, report);
     settings.draco.keep_decoded = context.reads_back();
     steps.next();
@@ -238,7 +255,11 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
         else
             context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
-    stage_files(written, o.path.text, *codec, out, settings, context);
+    WrittenScene file = stage_files(written, o.path.text, *codec, out, settings, context);
+    file.is_whole = lent.size() == scene.parts.size();
+    if (purpose && !codec->can.tiles && check_fit(file, *purpose, out, settings, context))
+        report.fits = purpose->name;
+    context.wrote(std::move(file));
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
@@ -272,6 +293,8 @@ const RegisterStage registered = make_stage<WriteStage>(
                   "write: {path: web.glb, normals: smooth, feature_angle: 40deg}",
                   "write: {path: out/tileset.json, tiles: 3d, draco: true}"},
      .tells = true,
+     .keeps_scene = true,
+     .writes_scene = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes through unchanged, so nothing is compared
      .crossing_faces = CrossingFacePolicy::name,
