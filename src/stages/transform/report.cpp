@@ -32,9 +32,9 @@ void warn_of_conversion(const io::Conversion& converted, const TransformOptions&
                      "give the up axis when the file is loaded (load: {up: z})");
 }
 
-void warn_of_animation(const std::string& part, Context& context) {
-    context.warn("W-TRANSFORM", fmt::format("transform: part '{}' is animated and is not baked", part),
-                 "its node has been moved; merge makes it a part without animation");
+void warn_of_kept_node(const std::string& part, const char* reason, Context& context) {
+    context.warn("W-TRANSFORM", fmt::format("transform: part '{}' {} and is not baked", part, reason),
+                 "its node has been moved instead");
 }
 
 } // namespace facetmill::transform_stage
