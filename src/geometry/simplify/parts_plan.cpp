@@ -1,5 +1,6 @@
 #include "geometry/simplify/parts_plan.hpp"
 
+#include "mesh/drawn_box.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/transform.hpp"
@@ -162,7 +163,7 @@ SimplifySettings settings_for(const PartSet& set, const PartsPlan& plan) {
     if (s.constraints.hausdorff > 0) s.constraints.hausdorff /= scale;
     if (plan.o.max_of_diagonal) {
         Box box;
-        for (const std::size_t p : set) box.add(plan.scene.parts[p].mesh.bounds());
+        for (const std::size_t p : set) box.add(drawn_box(plan.scene.parts[p].mesh));
         s.max_quadric_error = *plan.o.max_of_diagonal * diagonal(box);
     }
     if (!(s.max_quadric_error > 0.0)) s.max_quadric_error.reset(); // 0 for a single point

@@ -6,9 +6,11 @@
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/contents/largest_pose.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/document/shorten.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
 #include "io/gltf/read/lines.hpp"
 #include "io/gltf/read/mesh.hpp"
@@ -495,11 +497,16 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
                               : binary                                 ? Textures::embed
                                                                        : Textures::copy;
     auto images = place_images(patch, stored.images, stem, textures);
+    const bool shortens = settings.draco.on || settings.quantize.on || settings.meshopt.on;
+    const auto worlds =
+        shortens ? largest_worlds(builder.current(), node_frames(builder.json())) : std::vector<Transform>();
     Bytes buffer = builder.finish(written.warnings);
+    drop_nulls(builder.json());
     if (!settings.names) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
-    if (settings.draco.on || settings.quantize.on || settings.meshopt.on)
-        shorten(builder.json(), settings.whole_positions ? Box{} : scene.bounds());
+    if (shortens)
+        shorten(builder.json(), settings.whole_positions ? Box{} : drawn_bounds(scene, part_views(scene)),
+                worlds);
     add_main_files(patch, stem, std::move(buffer), binary);
     for (auto& image : images) written.files.push_back(std::move(image));
     written.decoded = std::make_shared<const DracoDecodings>(std::move(builder.decoded));

@@ -37,10 +37,44 @@ class MaterialContents {
 /// malformed-input error when the document's nodes or animations are invalid.
 [[nodiscard]] std::vector<bool> animated_parts(const Scene& scene);
 
-/// [parts] for parts with several instances (EXT_mesh_gpu_instancing): the largest distance, in the world,
-/// by which writing moves points of the largest instance. 0 for other parts. Instances are float32; with
-/// meshopt's filters, rotations have 16 bits. Throws a malformed-input error when the document's nodes or
-/// instances are invalid.
+/// How viewers show a part of a document. Parts without a document are shown as they are.
+struct PartView {
+    bool animated = false;    ///< an animation moves its node or an ancestor
+    bool hidden = false;      ///< outside the scene that viewers show, or invisible (KHR_node_visibility)
+    bool lower_level = false; ///< a level of detail that replaces another node (MSFT_lod), or below one
+    bool has_levels = false;  ///< its node or an ancestor has such levels
+    bool instanced = false;   ///< several instances (EXT_mesh_gpu_instancing)
+    bool shares_node = false; ///< its node also has a camera, a light or another extension
+    Transform largest{};      ///< its space to the world, at the largest scale that an animation gives it
+
+    bool is_drawn() const { return !hidden && !lower_level; }
+};
+/// [parts]. Throws malformed when the nodes or animations of a document are invalid.
+[[nodiscard]] std::vector<PartView> part_views(const Scene& scene);
+/// The world box of what viewers draw, each part at its largest scale. Unused vertices, hidden parts and
+/// lower levels of detail do not count, unless nothing else is left.
+[[nodiscard]] Box drawn_bounds(const Scene& scene, const std::vector<PartView>& views);
+
+/// By how much lengths of a part have grown since its materials were made.
+struct LengthGrowth {
+    double mesh = 1;  ///< in the space of the mesh
+    double world = 1; ///< in the world
+};
+/// The growth of lengths under a transform; the geometric mean if it differs by direction.
+[[nodiscard]] double length_growth(const Transform& t);
+/// True if the growth is the same in every direction.
+[[nodiscard]] bool grows_evenly(const Transform& t);
+/// Multiplies the lengths in the parts' materials (KHR_materials_volume: the thickness is in the space of the
+/// mesh, the attenuation distance in the world). A material that parts need with different lengths gets
+/// copies. growth: [parts].
+void scale_material_lengths(Scene& scene, const std::vector<LengthGrowth>& growth);
+/// [parts] the thicknesses of the volumes (KHR_materials_volume) in the world, ascending.
+[[nodiscard]] std::vector<std::vector<double>> thicknesses(const Scene& scene);
+
+/// [parts] for parts at the largest of several instances (EXT_mesh_gpu_instancing): the distance by which
+/// writing the instance may move its points, in the world. 0 for other parts. Instances are float32; with
+/// meshopt's filters, rotations have 16 bits. Throws malformed when the document's nodes or instances are
+/// invalid.
 [[nodiscard]] std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 
 /// Calls visit for each part with several instances (EXT_mesh_gpu_instancing), with the transforms from its

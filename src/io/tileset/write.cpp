@@ -4,6 +4,7 @@
 #include "io/attributes.hpp"
 #include "io/gltf/contents/textures.hpp"
 #include "io/gltf/document/container.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/images/image_files.hpp"
 #include "io/tileset/tiles.hpp"
 #include "io/tileset/tileset.hpp"
@@ -132,7 +133,15 @@ class TilesetWriter {
 } // namespace
 
 Written write(const Scene& scene, const WriteSettings& settings) {
-    return TilesetWriter(scene, settings).run(scene);
+    const auto thick = thicknesses(scene);
+    if (std::all_of(thick.begin(), thick.end(), [](const auto& part) { return part.empty(); }))
+        return TilesetWriter(scene, settings).run(scene);
+    Scene scaled = scene; // tiles have world coordinates, so the thickness of volumes grows with their parts
+    std::vector<LengthGrowth> growth;
+    growth.reserve(scene.parts.size());
+    for (const Part& part : scene.parts) growth.push_back({length_growth(part.transform), 1});
+    scale_material_lengths(scaled, growth);
+    return TilesetWriter(scaled, settings).run(scaled);
 }
 
 } // namespace facetmill::io::tileset

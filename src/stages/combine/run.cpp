@@ -3,6 +3,7 @@
 #include "base/text/words.hpp"
 #include "geometry/boolean/combine.hpp"
 #include "geometry/cut/cap_paint.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/transform.hpp"
 #include "stage/options/synonyms.hpp"
@@ -262,6 +263,15 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
     return report;
 }
 
+/// Volumes of glass keep their thickness in the world, although meshes grow in the space of the first part.
+void keep_thickness(Scene& scene, const std::vector<int>& operand, const Part& space) {
+    std::vector<io::LengthGrowth> growth(scene.parts.size());
+    for (std::size_t i = 0; i < growth.size(); ++i)
+        if (operand[i] != 0 && scene.parts[i].transform != space.transform)
+            growth[i].mesh = io::length_growth(*inverse(space.transform) * scene.parts[i].transform);
+    io::scale_material_lengths(scene, growth);
+}
+
 Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport& report) {
     const std::vector<int> operand = operands_of(scene, o, context);
     std::vector<Part*> first;
@@ -274,6 +284,7 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
         if (operand[i] == 2) second.push_back(&scene.parts[i]);
     }
     if (first.empty()) return scene;
+    keep_thickness(scene, operand, *first.front());
     if (o.operation == Operation::unite) {
         std::vector<const Part*> others(first.begin() + 1, first.end());
         others.insert(others.end(), second.begin(), second.end());

@@ -1,8 +1,10 @@
 #include "stages/optimize/join.hpp"
 
+#include "io/gltf/gltf.hpp"
 #include "mesh/transform.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -36,6 +38,18 @@ std::string kind_of(const Mesh& mesh) {
     return fmt::format("{} | {}", fmt::join(materials, " "), fmt::join(attributes, ", "));
 }
 
+/// The scale of a transform along all directions, to a millionth. Equal keys keep lengths equal.
+std::string scale_key(const Transform& t) {
+    const Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
+    double whole = 0;
+    for (const Vec3& a : axes) whole += dot(a, a);
+    std::string key = fmt::format(" | {:.6g}", whole);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j)
+            key += fmt::format(" {:.0f}", std::floor(dot(axes[i], axes[j]) / whole * 1e6 + 0.5) + 0.0);
+    return key;
+}
+
 } // namespace
 
 std::size_t draw_calls(const Mesh& mesh) {
@@ -62,9 +76,11 @@ bool join_primitives(Mesh& mesh) {
 
 std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<std::size_t>& candidates) {
     std::map<std::string, JoinedParts> by_kind;
+    const auto thick = io::thicknesses(scene);
     for (const std::size_t i : candidates) {
-        const std::string kind = kind_of(scene.parts[i].mesh);
+        std::string kind = kind_of(scene.parts[i].mesh);
         if (kind.empty()) continue;
+        if (!thick[i].empty()) kind += scale_key(scene.parts[i].transform);
         const auto [group, first] = by_kind.try_emplace(kind, JoinedParts{i, {}});
         if (!first) group->second.others.push_back(i);
     }

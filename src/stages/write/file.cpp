@@ -30,14 +30,15 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// The fewest bits of each part that give world steps no larger than the scene's longest side divided by
-/// 2^bits. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
-std::vector<int> bits_of_scene(const Scene& scene, int bits) {
+/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
+/// the longest side of what is drawn, in the largest pose. The minimum is 10 bits, about a thousandth of the
+/// part, or `bits` if fewer.
+std::vector<int> bits_of_scene(const Scene& scene, const std::vector<io::PartView>& views, int bits) {
     constexpr int fewest = 10;
-    const double whole = scene.bounds().longest_side();
+    const double whole = io::drawn_bounds(scene, views).longest_side();
     std::vector<int> all;
-    for (const Part& part : scene.parts) {
-        const double own = part.mesh.bounds().longest_side() * greatest_stretch(part.transform);
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const double own = scene.parts[i].mesh.bounds().longest_side() * greatest_stretch(views[i].largest);
         int enough = std::min(fewest, bits);
         const auto steps = [](int n) { return static_cast<double>((std::int64_t{1} << n) - 1); };
         while (enough < bits && own / steps(enough) > whole / steps(bits)) ++enough;
@@ -225,14 +226,14 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     if (codec.can.tiles) return; // tilesets choose a common grid: io/tileset/frame.hpp
     bool enough = true;
     if (codec.can.transforms) {
-        s.part_bits =
-            grid == Grid::mesh ? std::vector<int>(scene.parts.size(), usual) : bits_of_scene(scene, usual);
+        const std::vector<io::PartView> views = io::part_views(scene);
+        s.part_bits = grid == Grid::mesh ? std::vector<int>(scene.parts.size(), usual)
+                                         : bits_of_scene(scene, views, usual);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
         as_shared(s.part_bits, scene);
         if (grid == Grid::even) {
-            EvenGrid even =
-                even_grid(scene, s.part_bits, usual, limit.value_or(usual), io::animated_parts(scene));
+            EvenGrid even = even_grid(scene, s.part_bits, usual, limit.value_or(usual), views);
             s.part_bits = std::move(even.bits);
             s.lattices = std::move(even.lattices);
         }

@@ -17,10 +17,10 @@ namespace {
 
 double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
 
-/// The step of the scene's grid: longest side / (2^bits - 1), lengthened by a factor of 1e-4 to 2e-4 so that
-/// the number of steps fits. Five digits keep grid coordinates short.
-double step_of_scene(const Scene& scene, int bits) {
-    const double step = scene.bounds().longest_side() / steps_of(bits) * (1 + 2e-4);
+/// The step of the scene's grid: longest side / (2^bits - 1), made 1e-4 to 2e-4 longer so that the number of
+/// steps fits. It has five digits, so that grid coordinates are short too.
+double step_of_scene(const Box& whole, int bits) {
+    const double step = whole.longest_side() / steps_of(bits) * (1 + 2e-4);
     return parse_real(fmt::format("{:.4e}", step)).value_or(step);
 }
 
@@ -106,9 +106,9 @@ int bits_for(double length, double step, int most) {
 } // namespace
 
 EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
-                   const std::vector<bool>& left) {
+                   const std::vector<io::PartView>& views) {
     EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
-    const double whole = step_of_scene(scene, bits);
+    const double whole = step_of_scene(io::drawn_bounds(scene, views), bits);
     if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
     std::map<std::pair<int, int>, std::vector<std::size_t>> users; // the parts that use a mesh of a document
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
@@ -118,12 +118,13 @@ EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, 
             .push_back(i);
     }
     for (const auto& [_, parts] : users) {
-        const bool moved = std::any_of(parts.begin(), parts.end(), [&](std::size_t i) { return left[i]; });
+        const bool moved =
+            std::any_of(parts.begin(), parts.end(), [&](std::size_t i) { return views[i].animated; });
         double step = HUGE_VAL;
         for (const std::size_t i : parts) {
             const Part& part = scene.parts[i];
             const Box box = part.mesh.bounds();
-            const double own = box.longest_side(), here = whole / stretch_of(part.transform);
+            const double own = box.longest_side(), here = whole / stretch_of(views[i].largest);
             const bool whole_numbers =
                 own / here < 0x1p53 && here > 0; // false if the step is zero or not a number
             if (moved || box.empty() || !whole_numbers) step = 0;

@@ -2,6 +2,7 @@
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/drawn_box.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/fit.hpp"
@@ -163,6 +164,23 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
                 context.where());
 }
 
+/// Rounding depends on the bounds, so vertices that nothing draws must not widen them. Features that are
+/// numbered by vertex keep all vertices.
+void drop_unused_vertices(Scene& out, std::vector<Lent>& lent) {
+    const auto by_vertex = [](const Primitive& p) {
+        return p.json.find("EXT_mesh_features") != std::string::npos;
+    };
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Part& part = out.parts[k];
+        const auto& primitives = part.mesh.primitives;
+        if (!has_unused_vertices(part.mesh) || std::any_of(primitives.begin(), primitives.end(), by_vertex))
+            continue;
+        if (!lent[k].mesh) lent[k].mesh = part.mesh;
+        drop_unused(part.mesh);
+        part.changed = true;
+    }
+}
+
 /// Logs the number of faces that are written as triangles, unless all faces are triangles.
 void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
     if (codec.can.polygons && !o.triangulate) return;
@@ -229,14 +247,15 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (o.triangulate && codec->can.polygons) make_triangles(out, lent);
     give_normals(out, lent, o, context);
     give_tangents_to_all(out, lent, o, context);
+    const std::filesystem::path target = context.places().output(o.path.text);
+    io::WriteSettings settings = settings_of(o, *codec, target);
+    if (settings.draco.on || settings.quantize.on || settings.meshopt.on) drop_unused_vertices(out, lent);
     if (codec->can.transforms && o.precision != WriteOptions::Precision::full) {
         std::map<std::size_t, std::vector<Vec3>> moved;
         report.origin = move_origin(out, o.origin, context, moved);
         for (auto& [k, positions] : moved) lent[k].positions = std::move(positions);
     }
     to_convention(out, o, *codec, context, report);
-    const std::filesystem::path target = context.places().output(o.path.text);
-    io::WriteSettings settings = settings_of(o, *codec, target);
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
     const std::shared_ptr<const Purpose> purpose = context.trail().purpose;

@@ -371,14 +371,21 @@ void primitive_accessors(Json& primitive, const Visit& visit) {
 }
 
 bool known(const std::string& name) {
-    static const std::set<std::string, std::less<>> names = {
-        "KHR_draco_mesh_compression", "KHR_mesh_quantization",
-        "EXT_meshopt_compression",    "KHR_meshopt_compression",
-        "EXT_mesh_manifold",          "EXT_mesh_gpu_instancing",
-        "KHR_lights_punctual",        "KHR_xmp_json_ld",
-        "KHR_node_visibility",        "MSFT_lod",
-        "MSFT_texture_dds",           "EXT_lights_image_based",
-        "EXT_mesh_features",          "EXT_structural_metadata"};
+    static const std::set<std::string, std::less<>> names = {"KHR_draco_mesh_compression",
+                                                             "KHR_mesh_quantization",
+                                                             "EXT_meshopt_compression",
+                                                             "KHR_meshopt_compression",
+                                                             "EXT_mesh_manifold",
+                                                             "EXT_mesh_gpu_instancing",
+                                                             "EXT_instance_features",
+                                                             "KHR_lights_punctual",
+                                                             "KHR_xmp_json_ld",
+                                                             "KHR_node_visibility",
+                                                             "MSFT_lod",
+                                                             "MSFT_texture_dds",
+                                                             "EXT_lights_image_based",
+                                                             "EXT_mesh_features",
+                                                             "EXT_structural_metadata"};
     const auto starts = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
     return names.count(name) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_");

@@ -95,11 +95,15 @@ Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, cons
     return t;
 }
 
+Transform local_transform(const JsonCursor& node) {
+    return node.find("matrix") ? from_matrix(node) : from_parts(node);
+}
+
 std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
     std::vector<NodeFrame> frames(count_of(document, "nodes"));
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const JsonCursor node = item(document, "nodes", i);
-        frames[i].local = node.find("matrix") ? from_matrix(node) : from_parts(node);
+        frames[i].local = local_transform(node);
         if (const auto mesh = node.find("mesh"))
             frames[i].mesh = static_cast<int>(mesh->index(count_of(document, "meshes"), "mesh"));
         if (const auto skin = node.find("skin")) {

@@ -22,6 +22,9 @@ struct NodeFrame {
 /// Scales, then rotates by a quaternion (x, y, z, w) of any length (zero: no rotation), then translates.
 [[nodiscard]] Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, const Vec3& scale);
 
+/// The transform of a node relative to its parent. Throws malformed (E-GLTF).
+[[nodiscard]] Transform local_transform(const JsonCursor& node);
+
 /// Takes a warning's id and message.
 using Warn = std::function<void(const char*, std::string)>;
 /// All nodes, by index. Throws a malformed-input error (E-NODES) for cycles, E-GLTF for invalid members.

@@ -108,7 +108,6 @@ class DocumentOptimizer {
     std::set<std::size_t> unnamed(const char* list, References references,
                                   const std::set<std::size_t>& named);
     std::size_t erase(const char* list, References references, const std::set<std::size_t>& dead);
-    std::set<std::size_t> empty_nodes(const std::set<std::size_t>& emptied);
     void drop_bounds();
     std::size_t add(const char* list, Json item);
     /// Adds a view with a separate buffer.
