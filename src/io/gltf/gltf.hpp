@@ -32,6 +32,10 @@ class MaterialContents {
 /// malformed, like reading.
 [[nodiscard]] Json document_contents(const Scene& scene);
 
+/// True if the scene is a document without meshes (nodes, cameras, animations): it has no part, and none was
+/// dropped by a stage.
+[[nodiscard]] bool is_without_meshes(const Scene& scene);
+
 /// [parts] true if an animation of its document drives its node, or an ancestor. Such a node must keep its
 /// transform, which is only valid for one moment. Morph weights do not count. Throws malformed when the
 /// document's nodes or animations are invalid.
