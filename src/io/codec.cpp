@@ -201,6 +201,7 @@ const std::vector<Capability>& capabilities() {
         {"skins", &Capabilities::skins},
         {"points", &Capabilities::points},
         {"lines", &Capabilities::lines},
+        {"documents", &Capabilities::documents},
         {"text", &Capabilities::text},
         {"big_endian", &Capabilities::big_endian},
         {"full_precision", &Capabilities::full_precision},
@@ -276,7 +277,7 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
         if (lines.name.empty()) lines.name = stem_of(input);
         any |= !lines.segments.empty();
     }
-    if (!any)
+    if (!any && !(codec.can.documents && scene.parts.empty()))
         throw Error(ErrorKind::malformed, "E-EMPTY",
                     fmt::format("'{}' has no mesh: not one vertex", input.name()),
                     "export it again, with the meshes themselves: programs leave out what is hidden or not "

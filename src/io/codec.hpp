@@ -192,6 +192,7 @@ struct Capabilities {
     bool skins = false;
     bool points = false;         ///< scenes without faces: point clouds
     bool lines = false;          ///< parts of lines
+    bool documents = false;      ///< scenes without meshes: nodes, cameras, animations
     bool text = false;           ///< WriteSettings::ascii
     bool big_endian = false;     ///< WriteSettings::big_endian
     bool full_precision = false; ///< WriteSettings::double_positions

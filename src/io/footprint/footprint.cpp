@@ -255,8 +255,10 @@ class GeoJson {
         Json json;
         try {
             json = parse_json(text);
-        } catch (const Json::exception& e) {
-            malformed(name_, 0, "E-GEOJSON", fmt::format("this is not JSON: {}", e.what()));
+        } catch (const Json::parse_error& e) {
+            malformed(name_, 0, "E-GEOJSON", fmt::format("this is not JSON at byte {}", e.byte));
+        } catch (const Json::exception&) {
+            malformed(name_, 0, "E-GEOJSON", "this is not JSON: a number is out of range");
         }
         geometry(json, 0);
         return std::move(rings_);

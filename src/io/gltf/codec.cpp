@@ -6,7 +6,7 @@
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
-#include "io/gltf/contents/largest_pose.hpp"
+#include "io/gltf/document/check.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/document/shorten.hpp"
@@ -139,6 +139,20 @@ void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>&
          false});
 }
 
+void warn_of_breaches(const Breaches& breaches, ReadLog& log) {
+    if (breaches.count() == 0) return;
+    const std::size_t more = breaches.count() - breaches.first().size();
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-GLTF",
+         fmt::format("the document breaks {} of glTF 2.0: {}{}",
+                     breaches.count() == 1 ? "a rule" : counted(breaches.count(), "rule"),
+                     fmt::join(breaches.first(), "; "), more > 0 ? fmt::format("; and {} more", more) : ""),
+         {},
+         "export it again; the Khronos validator lists all",
+         false});
+}
+
 /// Warns about parts outside the scene that viewers show; they are loaded nevertheless.
 void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& log) {
     const std::vector<bool> shown = shown_nodes(document);
@@ -215,16 +229,22 @@ bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
     return points;
 }
 
-/// Throws a malformed-input error (E-EMPTY) for a document with primitives if none of them was read.
-void refuse_without_parts(const Json& document, const std::string& name) {
+/// Warns about a document with primitives if none of them was read.
+void warn_without_parts(const Json& document, ReadLog& log) {
     std::size_t primitives = 0;
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
         primitives += item(document, "meshes", m).at("primitives").size();
-    if (primitives > 0)
-        throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no faces: its {} primitive{} placed nowhere or without positions",
-                                name, primitives, primitives == 1 ? " is" : "s are"),
-                    "export it again, with the scene that shows them");
+    if (primitives == 0) return;
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-SKIPPED",
+         fmt::format("{} placed by no node, or without positions: kept in the document as written, and no "
+                     "stage sees {}",
+                     primitives == 1 ? "its only primitive is" : counted(primitives, "primitive") + " are",
+                     primitives == 1 ? "it" : "them"),
+         {},
+         "export it again, with the nodes that show them",
+         false});
 }
 
 bool has_embedded_images(const Json& document) {
@@ -304,8 +324,15 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     Json json = parse_document(document->json);
     const ScopedDestroy after(json);
     check_asset(json);
+    Breaches breaches;
+    check_members(json, breaches);
     document->buffers = load_buffers(json, chunks.binary, input, log);
     document->files = load_images(json, input, log);
+    check_rules(json, breaches);
+    Source source(json, document->buffers);
+    source.decoded = settings.decoded;
+    if (correct_bounds(json, source, breaches)) document->json = to_string(json);
+    warn_of_breaches(breaches, log);
     if (settings.expand_instances && uses_extension(json, instancing_extension)) {
         expand_instances(json, document->buffers, log);
         document->json = to_string(json);
@@ -317,8 +344,6 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     scene.up = settings.up.value_or(UpAxis::y);
     for (std::size_t i = 0; i < count_of(json, "materials"); ++i)
         scene.materials.push_back(read_material(item(json, "materials", i), i));
-    Source source(json, document->buffers);
-    source.decoded = settings.decoded;
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
@@ -328,7 +353,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         read_points(scene, source, frames, *document, settings.max_vertices, log);
         return scene;
     }
-    if (scene.parts.empty()) refuse_without_parts(json, input.name());
+    if (scene.parts.empty()) warn_without_parts(json, log);
     scene.documents.push_back(std::move(document));
     return scene;
 }
@@ -501,8 +526,8 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     const auto worlds =
         shortens ? largest_worlds(builder.current(), node_frames(builder.json())) : std::vector<Transform>();
     Bytes buffer = builder.finish(written.warnings);
-    drop_nulls(builder.json());
-    if (!settings.names) drop_names(builder.json());
+    // Without meshes, names are what animations and programs find nodes by.
+    if (!settings.names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
     if (shortens)
         shorten(builder.json(), settings.whole_positions ? Box{} : drawn_bounds(scene, part_views(scene)),
@@ -538,6 +563,7 @@ Capabilities abilities(std::string companion) {
             .skins = true,
             .points = true,
             .lines = true,
+            .documents = true,
             .mesh_manifold = true,
             .lods = true,
             .textures = true,

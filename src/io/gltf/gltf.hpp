@@ -32,9 +32,13 @@ class MaterialContents {
 /// malformed-input error, like reading.
 [[nodiscard]] Json document_contents(const Scene& scene);
 
-/// [parts] true if an animation drives the part's node or an ancestor. Such a node must keep its transform,
-/// because the transform is only valid at one time. Animations of morph weights do not count. Throws a
-/// malformed-input error when the document's nodes or animations are invalid.
+/// True if the scene is a document without meshes (nodes, cameras, animations): it has no part, and none was
+/// dropped by a stage.
+[[nodiscard]] bool is_without_meshes(const Scene& scene);
+
+/// [parts] true if an animation of its document drives its node, or an ancestor. Such a node must keep its
+/// transform, which is only valid for one moment. Morph weights do not count. Throws malformed when the
+/// document's nodes or animations are invalid.
 [[nodiscard]] std::vector<bool> animated_parts(const Scene& scene);
 
 /// How viewers show a part of a document. Parts without a document are shown as they are.

@@ -27,6 +27,10 @@ const RegisterMessages gltf_messages{
     {"W-EXTENSION",
      "A glTF extension is dropped, because its data has changed or facetmill does not support it.",
      "Ignore this warning if you do not need the extension that the message names."},
+    {"W-GLTF",
+     "A glTF document breaks rules of its format that do not prevent reading. Wrong minima and maxima are "
+     "corrected.",
+     "Export the file again. The Khronos validator lists all broken rules."},
     {"W-INCOMPLETE", "A glTF primitive has extra indices after its last triangle.",
      "Ignore this warning. The exporter has a bug."},
     {"W-INSTANCES", "Instances of a glTF mesh now differ, so they are written as separate meshes.",

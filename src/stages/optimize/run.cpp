@@ -375,7 +375,7 @@ class Optimizing {
         for (const Part& part : scene_.parts)
             if (part.document >= 0 && part.source_mesh >= 0)
                 requests_[number(part.document)].meshes.insert(number(part.source_mesh));
-        if (o_.prune) drop_materials();
+        if (o_.prune && !scene_.parts.empty()) drop_materials(); // a library of materials keeps them
         for (const Material& m : scene_.materials)
             if (m.document >= 0 && m.index >= 0)
                 requests_[number(m.document)].materials.insert(number(m.index));
@@ -510,8 +510,9 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
 Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeReport& report) {
     try {
         Optimizing(scene, o, context, report).run();
-    } catch (const Json::exception& e) {
-        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), {}, context.where());
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::malformed, "E-GLTF",
+                    "a member of the document has another type than glTF gives it", {}, context.where());
     }
     return scene;
 }

@@ -6,6 +6,8 @@ const RegisterMessages render_messages{
     {"E-DIRECTION", "A direction has no length.", "Give three numbers that are not all 0.", ErrorKind::usage},
     {"E-PICTURE", "The name of an image does not end in .png.", "Use a name that ends in .png.",
      ErrorKind::usage},
+    {"W-BLANK", "The scene has no faces, lines or points, so its picture is blank.",
+     "Check the results of the previous stages. `when: {vertices: {min: 1}}` skips the picture."},
     {"W-FAR",
      "Most of a scene is hardly visible in its picture, because something lies far away. Examples are a "
      "stray face or a part in other units.",

@@ -222,7 +222,15 @@ void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context
                  "facetmill info tells whether the surface is closed and manifold");
 }
 
+void warn_of_nothing(const Scene& scene, Context& context) {
+    const auto drawn = [](const Part& part) { return part.mesh.vertex_count() > 0; };
+    if (std::none_of(scene.parts.begin(), scene.parts.end(), drawn))
+        context.warn("W-BLANK", "render: the scene has nothing to draw, so the picture is blank",
+                     "the common key when: {vertices: {min: 1}} skips the picture");
+}
+
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
+    warn_of_nothing(scene, context);
     ProgressSteps steps({9, 1});
     const Subject subject = subject_of(o, scene, context);
     const Picture picture = taken(o, scene, subject, context);

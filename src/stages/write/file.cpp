@@ -135,7 +135,12 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
         context.warn("W-UNITS",
                      fmt::format("the scene has no unit: '{}' gets its numbers unchanged, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
-                     "give both when you load it: load: {path: ..., unit: mm, up: z}");
+                     "give both when it is loaded: load: {path: ..., unit: mm, up: z}");
+    if (scene.parts.empty() && (done.factor != 1 || done.turned))
+        context.warn("W-TRANSFORM",
+                     fmt::format("the scene has no meshes: the nodes in '{}' keep the numbers of the input",
+                                 o.path.text),
+                     "load it without unit and up");
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
 }
@@ -215,7 +220,7 @@ bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o) {
 
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report) {
-    if (!s.draco.on && !s.quantize.on) return;
+    if ((!s.draco.on && !s.quantize.on) || scene.parts.empty()) return;
     const int usual = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
     const bool given = bits_are_given(s, o);
     const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::scene

@@ -2,7 +2,7 @@
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
-#include "mesh/drawn_box.hpp"
+#include "io/gltf/gltf.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/fit.hpp"
@@ -149,6 +149,14 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
                     fmt::format("there is nothing to compress in '{}': the scene has lines and no faces",
                                 o.path.text),
                     "write lines without draco, quantize and meshopt", context.where());
+    if (io::is_without_meshes(scene))
+        throw Error(ErrorKind::stage, "E-EMPTY",
+                    fmt::format("there is nothing to write to '{}': the scene has no meshes, and {} holds "
+                                "nothing else",
+                                o.path.text, codec.name),
+                    fmt::format("nodes, cameras and animations go to {}",
+                                fmt::join(formats_with(&io::Capabilities::documents), ", ")),
+                    context.where());
     const std::vector<std::string> formats = formats_with(&io::Capabilities::points);
     std::vector<std::string> compressing;
     for (const io::Codec& other : io::codecs())
@@ -241,7 +249,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
             lent.push_back({i, scene.parts[i].transform, scene.parts[i].changed});
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
     tell_lines(scene, out, o, *codec, context);
-    if (out.face_count() == 0) check_points(out, o, *codec, context);
+    const bool document = codec->can.documents && io::is_without_meshes(scene);
+    if (out.face_count() == 0 && !document) check_points(out, o, *codec, context);
     ProgressSteps steps({1, 4, 5});
     say_of_triangles(out, o, *codec, context);
     if (o.triangulate && codec->can.polygons) make_triangles(out, lent);

@@ -14,6 +14,9 @@ namespace facetmill::io::gltf {
 /// The hint for glTF 1.0 files.
 inline constexpr const char* hint_for_version_1 = "gltf-pipeline writes glTF 1.0 as 2.0";
 
+/// The message for a member that no check has covered.
+inline constexpr const char* wrong_type = "a member has another type than glTF gives it";
+
 /// Calls body, and adds the file to its errors.
 template <class Body>
 [[nodiscard]] auto in_file(const Input& input, Body&& body) {
@@ -21,8 +24,8 @@ template <class Body>
         return body();
     } catch (Error& e) {
         throw e.at(file_mark(input.name()));
-    } catch (const Json::exception& e) {
-        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), "", file_mark(input.name()));
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::malformed, "E-GLTF", wrong_type, "", file_mark(input.name()));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "base/text/unique_names.hpp"
 #include "io/gltf/gltf.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -287,6 +288,15 @@ std::set<int> moving_nodes(const Document& document) {
 }
 
 } // namespace
+
+bool is_without_meshes(const Scene& scene) {
+    if (!scene.parts.empty() || scene.documents.empty()) return false;
+    return std::all_of(scene.documents.begin(), scene.documents.end(), [](const auto& document) {
+        Json json = gltf::parse_document(document->json);
+        const ScopedDestroy after(json);
+        return gltf::placements(json, gltf::node_frames(json)).empty();
+    });
+}
 
 std::vector<bool> animated_parts(const Scene& scene) {
     std::vector<std::set<int>> moving;

@@ -1,0 +1,34 @@
+#pragma once
+// The rules of glTF 2.0 (Khronos Group, 2021) and of the usual extensions.
+
+#include "io/gltf/document/accessor.hpp"
+
+namespace facetmill::io::gltf {
+
+/// Broken rules that do not prevent reading.
+class Breaches {
+  public:
+    void add(const JsonCursor& place, const std::string& message) {
+        constexpr std::size_t most = 3; // further ones are only counted
+        if (count_++ < most) first_.push_back(place.path() + ": " + message);
+    }
+    std::size_t count() const { return count_; }
+    const std::vector<std::string>& first() const { return first_; }
+
+  private:
+    std::size_t count_ = 0;
+    std::vector<std::string> first_;
+};
+
+/// Checks the types, the ranges and the references of all members. Throws malformed (E-GLTF) at a value of a
+/// wrong type, at a missing member, and at a reference to nothing: such a document has no meaning.
+void check_members(const Json& document, Breaches& breaches);
+
+/// Checks the rules between objects. The members must have been checked.
+void check_rules(const Json& document, Breaches& breaches);
+
+/// Sets the missing and wrong minima and maxima of accessors from their numbers; those without bytes, and of
+/// Draco, stay. Breaches receive the wrong ones. Returns true if the document has changed.
+bool correct_bounds(Json& document, Source& source, Breaches& breaches);
+
+} // namespace facetmill::io::gltf
