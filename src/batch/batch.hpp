@@ -84,8 +84,8 @@ struct Prepared {
 };
 
 /// Plans every asset, so that nothing runs if any plan has errors. Adds the problems of planning. Adds
-/// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (ignoring case),
-/// and E-OVERWRITE for an output that is also an input.
+/// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (ignoring case).
+/// Adds E-OVERWRITE for an output that is also an input.
 [[nodiscard]] Prepared prepare(const std::vector<Asset>& assets, const Settings& settings,
                                Problems& problems);
 

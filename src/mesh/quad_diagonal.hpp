@@ -18,9 +18,9 @@ struct QuadDiagonals {
 /// Face f must have four corners.
 [[nodiscard]] QuadDiagonals quad_diagonals(const Mesh& mesh, Index f);
 
-/// The diagonal of every quad. It is the diagonal of quad_diagonals, unless an edge or an earlier diagonal
-/// already joins its two vertices, and the other diagonal is sound and free. coinciding: quads where neither
-/// was free.
+/// The diagonal of every quad. It is the diagonal of quad_diagonals, with an exception. The other diagonal
+/// is used if it is sound and free, and an edge or an earlier diagonal already joins the two vertices of the
+/// first. coinciding: quads where neither was free.
 struct QuadCuts {
     std::vector<std::uint8_t> at_second; ///< [faces] 1: the diagonal from the second corner
     std::size_t coinciding = 0;

@@ -70,8 +70,8 @@ struct Components {
 /// face_components(mesh).count, without the numbering.
 [[nodiscard]] std::size_t component_count(const Mesh& mesh);
 
-/// Sets that are joined from several threads at once. A root only ever points to a lower root, so the root
-/// of a finished set is its lowest member, regardless of the order of joins.
+/// Sets that are joined from several threads at once. A root only ever points to a lower root. So the root
+/// of a finished set is its lowest member, for any order of joins.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t n = 0);

@@ -126,8 +126,8 @@ struct PipelineSource {
 /// The folders, besides a file's own, in which loaded files may refer to files.
 [[nodiscard]] std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Folders& places);
 /// Checks for conflicts between files. Adds E-DUPLICATE-OUTPUT for two writes to the same path (ignoring
-/// case), E-OVERWRITE for an output that is also an input, and E-DUPLICATE-INPUT for reading standard input
-/// twice. Returns true if there is no conflict.
+/// case), and E-OVERWRITE for an output that is also an input. Adds E-DUPLICATE-INPUT for reading standard
+/// input twice. Returns true if there is no conflict.
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// Checks all files of the plan as in check_collisions, with the files of a foreach over parts, once the
 /// names of the parts are known.

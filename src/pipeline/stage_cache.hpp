@@ -2,15 +2,15 @@
 // Skips stages whose results for the same scene and options are in the cache, and stores the results of
 // stages that ran.
 //
-// A stage can be recalled if it reads only the scene, its options and `only`, and only returns a scene and
-// fills its record (warnings may contain its name). A load can be recalled if the files that it read are
+// A stage can be recalled if it reads only the scene, its options and `only`. It may only return a scene and
+// fill its record (warnings may contain its name). A load can be recalled if the files that it read are
 // unchanged. Stages that check or write always run. If a stage turns out to have had other effects, its
 // result is not stored.
 //
-// The key of a stage's result is computed from the previous scene's key, the stage, its options, this program
-// and its libraries. The key of any other scene (loaded, joined ...) is computed from its contents, so its
-// history does not matter. A scene is stored if that takes at most a tenth of the stages' time since the last
-// stored scene. The report entries of these stages are stored together with it.
+// The key of a stage's result is computed from the previous scene's key, the stage, its options, this
+// program and its libraries. The key of any other scene (loaded, joined ...) is computed from its contents,
+// so its history does not matter. A scene is stored if that takes at most a tenth of the stages' time since
+// the last stored scene. The report entries of these stages are stored together with it.
 
 #include "cache/store.hpp"
 #include "pipeline/scene_state.hpp"

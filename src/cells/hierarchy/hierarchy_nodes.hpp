@@ -41,7 +41,7 @@ void settle_below_root(const std::vector<Station>& hierarchy_nodes, const std::v
 /// The work at a station and below it.
 struct StationWork {
     double error = 0;
-    double area = 0; ///< of the input mesh
+    double area = 0; ///< area of the input mesh
     std::size_t collapses = 0, turned = 0;
 };
 

@@ -368,8 +368,8 @@ struct Arrangement::Own {
     }
 
     /// Appends the triangles from begin to end as one run. Splits them into several runs if their common box
-    /// would be much larger than the sum of their boxes, because many rays would enter it without a hit.
-    /// Returns the box of all.
+    /// would be much larger than the sum of their boxes. Otherwise many rays would enter the common box
+    /// without a hit. Returns the box of all.
     Box add_runs(Index begin, Index end, std::vector<Run>& all) const {
         if (end - begin == 1) return all.emplace_back(Run{box_of(begin), begin, end}).box;
         const std::size_t before = all.size();

@@ -243,8 +243,8 @@ class Separation {
         return least;
     }
 
-    /// True if the vertex may move to this position. No other vertex may be at it, no face may be reversed
-    /// or lose its area, and no new pair of faces may intersect or touch.
+    /// True if the vertex may move to this position. No other vertex may be at this position, and no face
+    /// may be reversed or lose its area. No new pair of faces may intersect or touch.
     static bool is_sound(Neighbourhood& near, const Turns& turns, const Meetings& before, const Vec3& to) {
         if (!is_finite(to)) return false;
         const auto& all = near.mesh.positions;

@@ -123,8 +123,9 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
                   const CleanSettings& settings);
 /// Repairs each intersection separately: removes the intersecting faces, if necessary with up to four rings
 /// around them, and fills the hole. An intersection stays unchanged if its repair would leave an
-/// intersection or a new boundary edge, change the topology, remove half of a component, or exceed the
-/// budget. Faces that touch only at vertices with the same position do not count.
+/// intersection or a new boundary edge, or change the topology. It also stays if the repair would remove
+/// half of a component or exceed the budget. Faces that touch only at vertices with the same position do not
+/// count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
 
 } // namespace facetmill::clean_steps

@@ -71,11 +71,11 @@ struct ClipResult {
 /// touch in the plane. Open contours are reported and left open. Attributes: kept elements keep their
 /// attributes; new vertices and wedges are interpolated; pieces copy those of their face. Cap faces have
 /// zeros in face attributes other than "primitive". When the mesh has NORMAL or TEXCOORD_0, caps get their
-/// own wedges with the plane's normal and planar coordinates (the cap's larger extent is 1), the rest
-/// interpolated as on the walls. Vertices that no kept face uses are removed, unless they are isolated on
-/// the kept side. Order: kept faces and pieces in the order of their faces, followed by the cap. Throws a
-/// usage error (E-PLANE) for an invalid plane, and for Keep::both with several planes without `convex`.
-/// After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
+/// own wedges with the plane's normal and planar coordinates (the cap's larger extent is 1). Other
+/// attributes are interpolated as on the walls. Vertices that no kept face uses are removed, unless they are
+/// isolated on the kept side. Order: kept faces and pieces in the order of their faces, followed by the cap.
+/// Throws a usage error (E-PLANE) for an invalid plane, and for Keep::both with several planes without
+/// `convex`. After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
 [[nodiscard]] ClipResult clip(Mesh mesh, const ClipSettings& settings);
 
 } // namespace facetmill

@@ -137,9 +137,9 @@ struct AvoidResult {
 /// position has a share 1, 1/2 ... 1/256, 0 of its move. Each round finds all new pairs of faces that meet
 /// (find_self_intersections, folded neighbours included) and all faces that lost their area. All their
 /// positions get the next lower share, until none are found. Before the first round, shares fall until no
-/// two corners of a face move apart by more than eight times its longest edge, because such a face would
-/// meet a great many others. If a sample suggests that more than an eighth of all faces would be found, the
-/// limit is halved repeatedly (coarse). After eight rounds the surrounding positions are lowered too; after
+/// two corners of a face move apart by more than eight times its longest edge. Such a face would meet a
+/// great many others. If a sample suggests that more than an eighth of all faces would be found, the limit
+/// is halved repeatedly (coarse). After eight rounds the surrounding positions are lowered too; after
 /// sixteen, twice as far around in each round. This limits the rounds to about forty. The box pairs of all
 /// rounds are counted. Beyond 32 per face, or three times the pairs before the move if these are more,
 /// shares fall to an eighth at once. After three such rounds they fall to 0, including the surroundings

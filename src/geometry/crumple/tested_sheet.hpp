@@ -26,7 +26,7 @@ struct CrumplePlaces {
 
 inline constexpr std::uint8_t last_level = 9; ///< the level of share 0, no move
 /// Relative to the longest edge of a face. If moves stretch a face by more than this, it almost certainly
-/// intersects others, and so many that finding them would take most of the time.
+/// intersects others. Finding all of them would take most of the time.
 inline constexpr double max_stretch = 8;
 inline constexpr double least_stretch = 1.0 / 64; ///< below this, faces keep their shape
 /// Box pairs per face that are examined in a round. With more, faces are stretched too far to be examined

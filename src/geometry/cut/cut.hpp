@@ -113,8 +113,8 @@ bool is_closed(const Mesh& mesh);
 /// plane.
 void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more = {});
 
-/// Gives each flat face the side that its normal points away from, and faces without area the back, so that
-/// the boundaries of the two sides match.
+/// Gives each flat face the side that its normal points away from, and faces without area the back. So the
+/// boundaries of the two sides match.
 void settle_flat_by_normal(PlaneCut& cut);
 /// Gives all flat faces to one side, or none (0).
 void settle_flat(PlaneCut& cut, int side);

@@ -61,8 +61,8 @@ class PieceCutter {
     const Vec3& point(std::size_t node) const { return cut_.point(cut_.vertex_of(ring_[node].wedge)); }
 
     /// An edge in the plane at the end of a chain belongs to it only if it runs in the direction of this
-    /// side's boundary in the plane; otherwise it belongs to the other side. An edge without length belongs
-    /// to the front.
+    /// side's boundary in the plane. Otherwise the edge belongs to the other side. An edge without length
+    /// belongs to the front.
     void trim(Chain& c) const {
         const auto against = [&](std::size_t a, std::size_t b) {
             if (ring_[a].sign != 0 || ring_[b].sign != 0) return false;

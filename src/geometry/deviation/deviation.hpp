@@ -22,8 +22,8 @@ struct DeviationSettings {
     bool means = true;
     std::uint64_t seed = 1;
     bool certify = false; ///< also compute DirectedDeviation::bound
-    /// The search for the bound stops when it exceeds the larger maximum of both directions by at most this
-    /// fraction of the maximum, plus a millionth of the diagonal.
+    /// The search for the bound stops near the larger maximum of both directions. The bound exceeds it by at
+    /// most this fraction of the maximum, plus a millionth of the diagonal.
     double certify_to = 0.01;
     /// The limit of closest points that certify may look up in each direction. It limits work, not time, so
     /// that the result does not depend on the machine.

@@ -14,8 +14,8 @@ namespace facetmill {
 namespace {
 
 /// The part of each of 18 consecutive samples has the digits of the sample's number in bases 2, 3 and 3 in
-/// reverse, so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen"
-/// (1935). For each part, stores bits for the samples of earlier parts.
+/// reverse. So several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen" (1935).
+/// For each part, stores bits for the samples of earlier parts.
 constexpr auto rows_before_parts() {
     std::array<std::uint32_t, MeasuredSamples::all_parts + 1> rows{};
     for (std::size_t part = 0; part < MeasuredSamples::all_parts; ++part) {

@@ -47,7 +47,8 @@ struct DividedEdges {
 /// Divides the edges of more than two faces that remain after fans are separated, because other faces
 /// connect both ends. Every pair of faces except the first, and every face left over, gets a point in the
 /// middle of the edge, with interpolated attributes. If the point cannot be exactly on the edge, the first
-/// pair also gets a point at the same position, because no face may pass off another's corner.
+/// pair also gets a point at the same position. Otherwise the edge of a face would miss another face's
+/// corner.
 [[nodiscard]] DividedEdges divide_crowded_edges(const Mesh& mesh, const EdgeTable& edges,
                                                 const EdgeDivision& how);
 

@@ -148,8 +148,8 @@ struct Property {
     /// Measures the value of each face on request. The property is the minimum or maximum, depending on its
     /// Join. Infinity if it does not apply. The mesh has a size near 1; lengths are scaled back.
     std::vector<double> (*of_faces)(const Mesh& mesh) = nullptr;
-    /// Finds the locations where it fails. Null if it has no locations (properties with of_faces have their
-    /// own search).
+    /// Finds the locations where the property fails. Null if it has no locations (properties with of_faces
+    /// have their own search).
     LocationsOf locations = nullptr;
     /// Finds the evidence of a failed check. Null: locations, otherwise the contributions of the parts.
     EvidenceOf evidence = nullptr;

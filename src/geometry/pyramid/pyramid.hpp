@@ -37,9 +37,9 @@ struct PyramidTile {
 ///
 /// Coincident vertices of several tiles are held until all these tiles are joined. If a choice of tiles
 /// represents each input face once, common borders have the same vertices and edges on both sides, at all
-/// levels, so that tiles of a closed mesh close. The price is that a tile's border is as fine as the input
-/// mesh. A compact tile thus has at least about six times the square root of the number of triangles that it
-/// represents.
+/// levels. So tiles of a closed mesh form a closed mesh. The price is that a tile's border is as fine as the
+/// input mesh. A compact tile thus has at least about six times the square root of the number of triangles
+/// that it represents.
 ///
 /// If simplification stops at more than twice the limit of a tile (many components), it may also drop
 /// components and close holes, which counts in the error.

@@ -13,7 +13,7 @@ namespace facetmill {
 inline constexpr Colour missing_colour{0.79f, 0.10f, 0.51f};
 
 /// The colour map "viridis" for 0 to 1, perceptually uniform (S. van der Walt and N. Smith, 2015), by M.
-/// Zucker's polynomials. Values beyond get the end colours, and NaN gets missing_colour.
+/// Zucker's polynomials. Values outside this range get the end colours, and NaN gets missing_colour.
 [[nodiscard]] Colour on_a_scale(double t);
 
 /// The colour for 0 to 1: from blue over light grey at 0.5 to red (K. Moreland, "Diverging color maps for

@@ -35,13 +35,12 @@ struct TileResult {
     CutMemory memory;
 };
 
-/// Cuts the mesh in two recursively until every piece is in a single cell, so that time grows with the
-/// logarithm of the number of cells. Neighbours result from the same cut, so their borders have the same
-/// points. Facing caps have the same triangles, except points that a later cap adds where contours cross.
-/// Faces in a plane of the grid go to the side that they bound, as with Keep::both. Every tile has face
-/// attributes (for a cloud: wedge attributes) tile_x, tile_y, tile_z (int32) for the axes that are cut.
-/// Throws a usage error (E-TILE) for a size that is not above zero and a limit error (E-TILE) for too many
-/// tiles.
+/// Cuts the mesh in two recursively until every piece is in a single cell. So time grows with the logarithm
+/// of the number of cells. Neighbours result from the same cut, so their borders have the same points.
+/// Facing caps have the same triangles, except points that a later cap adds where contours cross. Faces in a
+/// plane of the grid go to the side that they bound, as with Keep::both. Every tile has face attributes (for
+/// a cloud: wedge attributes) tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws a usage error
+/// (E-TILE) for a size that is not above zero and a limit error (E-TILE) for too many tiles.
 [[nodiscard]] TileResult tile(Mesh mesh, const TileSettings& settings);
 
 } // namespace facetmill

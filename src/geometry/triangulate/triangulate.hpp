@@ -70,10 +70,10 @@ struct PairResult {
     std::size_t triangles = 0; ///< triangles left
 };
 
-/// Merges pairs of triangles across an edge of exactly two faces, if they run along it in opposite
-/// directions with the same wedges and have the same primitive. Edges whose quads have corners nearest to
-/// right angles are merged first (ties: the lower edge). Each triangle is used once. Vertices and wedges
-/// stay. A quad replaces its first triangle and gets its face attributes. Other faces stay unchanged.
+/// Merges pairs of triangles across an edge of exactly two faces. They must run along the edge in opposite
+/// directions, with the same wedges and the same primitive. Edges whose quads have corners nearest to right
+/// angles are merged first (ties: the lower edge). Each triangle is used once. Vertices and wedges stay. A
+/// quad replaces its first triangle and gets its face attributes. Other faces stay unchanged.
 [[nodiscard]] PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings = {});
 
 } // namespace facetmill

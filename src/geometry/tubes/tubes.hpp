@@ -26,7 +26,7 @@ struct TubesResult {
 /// Consecutive lines with the same material become a tube. It continues where exactly two lines meet, and
 /// has a flat end where a single line or more than two lines end. At a corner both sides run to the plane
 /// that halves the angle (a mitre). If a mitre needs more than a thickness, or more than half of a side, the
-/// section turns about the corner instead, in steps of at most 22.5 degrees. The section is carried along
+/// section turns about the corner instead. The steps are at most 22.5 degrees. The section is carried along
 /// without turning about the line. A closed tube distributes the remaining turn evenly, in triangles. Each
 /// tube is closed and oriented outward. Tubes intersect if they meet, cross, or are thicker than the
 /// distance of their lines. O(n log n) in the lines; requires finite points.
