@@ -13,7 +13,7 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* render_examples =
-    R"(All options of the stage render follow, as in facetmill pipe: --view front, --no-occlusion, --range 0,1.
+    R"(You can add all options of the stage render, as in facetmill pipe: --view front, --no-occlusion, --range 0,1.
 
 Examples
   facetmill render duck.glb -o duck.png
@@ -67,7 +67,7 @@ void parse_own(const Arguments& arguments, std::vector<std::string> words) {
 void require_other_mesh(const pipeline::Plan& plan) {
     const auto& step = plan.steps.back();
     if (step.stage->compares_with_load())
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "render: deviation is measured from another mesh",
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "render: deviation needs another mesh",
                     "facetmill render low.glb high.glb -o deviation.png --attribute deviation", step.where);
 }
 
@@ -112,25 +112,26 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
 } // namespace
 
 Command render_command() {
-    return {"render",
-            "Renders a PNG image of a mesh file, or of two beside each other.",
-            render_examples,
-            "MESH [MESH] [OPTIONS OF THE STAGE]",
-            [](Arguments& arguments, Console& console) {
-                auto options = std::make_shared<RenderCommandOptions>();
-                arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.")
-                    .followed_by("FILE.png");
-                add_threads_option(arguments, options->run.threads,
-                                   "The number of threads. Default: all cores.");
-                add_asset_root_option(arguments, options->run.asset_roots);
-                add_sandbox_option(arguments, options->run.sandbox);
-                add_message_options(arguments, console);
-                return [=, &arguments, &console](const Invocation& invocation) {
-                    return render(*options, arguments, invocation, console);
-                };
-            },
-            false,
-            "render"};
+    return {
+        "render",
+        "Renders a PNG image of a mesh file, or of two next to each other.",
+        render_examples,
+        "MESH [MESH] [OPTIONS OF THE STAGE]",
+        [](Arguments& arguments, Console& console) {
+            auto options = std::make_shared<RenderCommandOptions>();
+            arguments
+                .add("-o,--output", &options->output, "The PNG file to write. - writes to standard output.")
+                .followed_by("FILE.png");
+            add_threads_option(arguments, options->run.threads, "The number of threads. Default: all cores.");
+            add_asset_root_option(arguments, options->run.asset_roots);
+            add_sandbox_option(arguments, options->run.sandbox);
+            add_message_options(arguments, console);
+            return [=, &arguments, &console](const Invocation& invocation) {
+                return render(*options, arguments, invocation, console);
+            };
+        },
+        false,
+        "render"};
 }
 
 } // namespace facetmill::cli
