@@ -42,8 +42,9 @@ CLI::Validator one_of(const Argument& a) {
         [called = a.names, choices = a.choices](const std::string& text) -> std::string {
             if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
             const std::string name = std::string(split_at_commas(called).back());
-            throw NotAChoice(fmt::format("{} is one of {}, found '{}'", name, fmt::join(choices, ", "), text),
-                             text, did_you_mean(text, choices));
+            throw NotAChoice(
+                fmt::format("{} must be one of {}, found '{}'", name, fmt::join(choices, ", "), text), text,
+                did_you_mean(text, choices));
         },
         fmt::format("{{{}}}", fmt::join(a.choices, ",")));
 }
@@ -156,7 +157,7 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     CLI::App app{about, command};
     app.formatter(std::make_shared<Help>(the_rest));
     app.allow_extras();
-    app.set_help_flag("-h,--help", "Print this help and exit.");
+    app.set_help_flag("-h,--help", "Prints this help and exits.");
     for (const auto& a : all_) declare(app, a);
     std::vector<std::string> reversed(words.rbegin(), words.rend()); // CLI11 expects the reversed order
     try {

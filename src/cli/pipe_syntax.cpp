@@ -62,10 +62,9 @@ class Parser {
         const std::string& option = all_[at_ - 2];
         if (!is_option(option) || option.find('=') != std::string::npos || !own_->find(option)) return;
         const std::string stage = all_[at_ - 1];
-        problems_.add(
-            line_.mark(at_ - 1), "E-PIPE",
-            fmt::format("'{}' takes a value, and took the name of the stage '{}' for it", option, stage),
-            fmt::format("{} VALUE {} {}", option, stage, all_[at_]));
+        problems_.add(line_.mark(at_ - 1), "E-PIPE",
+                      fmt::format("'{}' needs a value, but found the stage name '{}'", option, stage),
+                      fmt::format("{} VALUE {} {}", option, stage, all_[at_]));
     }
 
     /// Reads stages up to the end or a closing bracket.
@@ -113,7 +112,7 @@ class Parser {
             if (skip_own_option(stage) || (stage && skip_misspelt_option(*stage))) continue;
             if (is_forgotten_separator(primary, bare.empty())) {
                 wrong(fmt::format("'{}' is a stage, found among the values of '{}'", all_[at_], name),
-                      fmt::format("did you forget ! before {}?", all_[at_]));
+                      fmt::format("add ! before {} if it is a stage", all_[at_]));
                 break;
             }
             if (all_[at_] == "--")
@@ -121,7 +120,7 @@ class Parser {
             else if (is_option(all_[at_]))
                 option(item, stage);
             else if (all_[at_] == "[") {
-                wrong(fmt::format("'{}' takes no '['", name));
+                wrong(fmt::format("'{}' does not accept '['", name));
                 ++at_;
             } else {
                 bare.push_back(pipe_value(all_[at_], primary, mark(), problems_));
@@ -135,7 +134,7 @@ class Parser {
     /// "-- -2mm" as in a shell: the word after two dashes is a value, whatever it begins with.
     void bare_behind_dashes(std::vector<Value>& bare, const Option* primary) {
         ++at_;
-        if (at_end_of_step()) return wrong("a value is missing behind '--'");
+        if (at_end_of_step()) return wrong("a value is missing after '--'");
         bare.push_back(pipe_value(all_[at_], primary, mark(), problems_));
         ++at_;
     }
@@ -165,8 +164,8 @@ class Parser {
         const Argument* argument = own_->find(name);
         if (!argument && !is_long) return skip_short_option(*stage);
         if (!argument || (is_long && takes(*stage, name.substr(2)))) return false;
-        wrong(fmt::format("'{}' is an option of pipe itself, found behind the stage '{}'", name, stage->name),
-              fmt::format("it comes before the first stage: facetmill pipe {} ... load ...", name));
+        wrong(fmt::format("'{}' is an option of pipe, found after the stage '{}'", name, stage->name),
+              fmt::format("put it before the first stage: facetmill pipe {} ... load ...", name));
         const bool attached = is_long ? word.find('=') != word.npos : word.size() > 2;
         ++at_;
         if (!argument->is_flag() && !attached && !at_end_of_step()) ++at_;
@@ -208,7 +207,7 @@ class Parser {
         if (dash && end == word.npos && wants_value(name, find_dotted(*stage.options, name)))
             value = all_[at_++];
         problems_.add(where, "E-PIPE",
-                      fmt::format("an option of a stage begins with two dashes, found '{}'", word),
+                      fmt::format("an option of a stage starts with two dashes, found '{}'", word),
                       fmt::format("write --{}{}{}", name, value.empty() ? "" : " ", value));
         return true;
     }
@@ -231,11 +230,10 @@ class Parser {
 
     /// The hint for a second bare value if only a single value is allowed.
     static std::string hint_of_second(const StageInfo& stage, const std::string& word) {
-        if (is_foreign_truth(word)) return "an option is switched by true and false: --draco, --draco=false";
+        if (is_foreign_truth(word)) return "switch options with true and false: --draco, --draco=false";
         if (takes(stage, word)) return fmt::format("did you mean '--{}'?", word);
-        if (names_result(stage, word))
-            return fmt::format("a file that it writes is given by --path {}", word);
-        return "stages are separated by ! or +";
+        if (names_result(stage, word)) return fmt::format("give its output file with --path {}", word);
+        return "separate stages with ! or +";
     }
 
     /// Sets the bare values of a stage: alone, or as the primary option with the other options.
@@ -245,7 +243,7 @@ class Parser {
         if (bare.size() > 1) {
             if (primary && !primary->repeatable && primary->kind != OptionKind::vector)
                 problems_.add(bare[1].mark, "E-PIPE",
-                              fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
+                              fmt::format("'{}' accepts one value, found {}", stage->name, bare.size()),
                               hint_of_second(*stage, bare[1].text));
             Value list = Value::list({}, bare[0].mark);
             for (auto& b : bare)
@@ -261,8 +259,8 @@ class Parser {
         else if (primary)
             add(value, primary->name, std::move(one), at, primary);
         else if (stage) // an unknown stage has its own error
-            problems_.add(at, "E-PIPE", "a bare value does not go with options here",
-                          "give it by its option's name");
+            problems_.add(at, "E-PIPE", "a bare value cannot be combined with options here",
+                          "give it with the name of its option");
         if (!value.mark.known()) value.mark = where;
     }
 
@@ -279,7 +277,7 @@ class Parser {
         Mark key_mark = mark();
         if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
         if (std::count(key.begin(), key.end(), '.') > deepest) {
-            wrong(fmt::format("a key of more than {} parts", deepest + 1));
+            wrong(fmt::format("a key has more than {} parts", deepest + 1));
             ++at_;
             return;
         }
@@ -303,7 +301,7 @@ class Parser {
             value = Value::scalar("false", key_mark);
         else if (equals == argument.npos && wants_value(key, known)) {
             if (all_[at_] == "--") ++at_; // as before a bare value
-            if (at_end_of_step()) return wrong("a value is missing behind '--'");
+            if (at_end_of_step()) return wrong("a value is missing after '--'");
             value = given(all_[at_], key, known, mark());
             ++at_;
         } else if (equals == argument.npos)
@@ -433,7 +431,7 @@ class Parser {
             }
             const auto equals = all_[at_].find('=');
             if (equals == std::string::npos || equals == 0) {
-                wrong(fmt::format("foreach takes variable=value,value, found '{}'", all_[at_]));
+                wrong(fmt::format("foreach needs variable=value,value, found '{}'", all_[at_]));
                 continue;
             }
             const std::string variable = all_[at_].substr(0, equals);
@@ -477,7 +475,7 @@ class Parser {
             Value body = block("branch near [ ... ] far [ ... ]");
             Value& arms = item.entries[0].value;
             if (arms.find(arm))
-                problems_.add(arm_mark, "E-PIPE", fmt::format("there are two branches '{}'", arm));
+                problems_.add(arm_mark, "E-PIPE", fmt::format("two branches are named '{}'", arm));
             else
                 arms.set(arm, std::move(body), arm_mark);
         }
@@ -497,8 +495,7 @@ class Parser {
             if (is_option(word))
                 wrong(fmt::format("include has no option '{}'", word), "include FILE --with.NAME=VALUE");
             else if (!item.entries[0].value.is_null())
-                wrong(fmt::format("include takes one file, found '{}'", word),
-                      "stages are separated by ! or +");
+                wrong(fmt::format("include needs one file, found '{}'", word), "separate stages with ! or +");
             else
                 item.entries[0].value = Value::scalar(expressions(word), mark());
             ++at_;
@@ -517,7 +514,7 @@ class Parser {
         }
         if (depth_ == deepest) {
             wrong(fmt::format("brackets are nested more than {} levels deep", deepest),
-                  "put the inner stages into a file, and include it");
+                  "put the inner stages into a file and include it");
             too_deep_ = true;
             at_ = all_.size(); // skip the rest
             return Value::list({}, mark());

@@ -35,7 +35,7 @@ void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problem
             if (output != "-" && !seen.insert(output.lexically_normal()).second) {
                 plan.files_collide = true;
                 problems.add({}, "E-DUPLICATE-OUTPUT",
-                             fmt::format("{}: '{}' is written by another pipeline of this run too", plan.name,
+                             fmt::format("{}: another pipeline of this run also writes '{}'", plan.name,
                                          output.string()));
             }
     }
@@ -50,8 +50,8 @@ void check_single(const std::vector<std::string>& pipelines, const PipelineOptio
     for (const auto& [option, is_given] : of_one)
         if (pipelines.size() > 1 && is_given)
             problems.add(line.find(option), "E-ARGUMENT",
-                         fmt::format("{} takes one pipeline, found {}", option, pipelines.size()),
-                         "run them one by one");
+                         fmt::format("{} accepts one pipeline, found {}", option, pipelines.size()),
+                         "run them separately");
 }
 
 struct Planned {
@@ -108,7 +108,7 @@ void watch_inputs(const Planned& all, Watch& watch) {
 
 [[noreturn]] void refuse_stream(const char* what, const Mark& where) {
     throw Error(ErrorKind::usage, "E-ARGUMENT",
-                fmt::format("--watch cannot read {} from standard input again", what), "give it as a file",
+                fmt::format("--watch cannot read {} from standard input again", what), "use a file instead",
                 where);
 }
 
@@ -178,7 +178,7 @@ Command run_command() {
                     .required();
                 auto watch = std::make_shared<bool>(false);
                 arguments.add("--watch", watch.get(),
-                              "Run again whenever a pipeline or a file that it reads changes; Ctrl-C ends.");
+                              "Runs again whenever a pipeline or an input changes. Ctrl-C ends it.");
                 add_value_options(arguments, *options);
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);

@@ -71,9 +71,9 @@ std::optional<double> read_byte_count(const Value& value, Problems& problems) {
     const double whole = std::round(bytes); // 4.35kB times 1000 may miss 4350 by the last bit
     if (bytes >= 0 && bytes <= max_bytes && std::abs(bytes - whole) <= 1e-12 * whole) return whole;
     problems.add(value.mark, "E-RANGE", fmt::format("'{}' is not a number of bytes", value.text),
-                 bytes < 0           ? "bytes are counted from 0"
+                 bytes < 0           ? "bytes cannot be negative"
                  : bytes > max_bytes ? "at most 9007199254740992 (8192TiB)"
-                                     : "bytes come whole");
+                                     : "a number of bytes must be whole");
     return {};
 }
 

@@ -200,7 +200,7 @@ std::vector<std::string> names_of_choices(const Option& option) {
 
 void refuse_choice(const Option& option, const Value& value, std::string hint, Problems& problems) {
     problems.add(value.mark, "E-CHOICE",
-                 fmt::format("'{}' is one of {}, found {}", option.name,
+                 fmt::format("'{}' must be one of {}, found {}", option.name,
                              fmt::join(names_of_choices(option), ", "), value.described()),
                  std::move(hint));
 }
@@ -239,7 +239,7 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
         if (std::find(rule.names.begin(), rule.names.end(), e.key) != rule.names.end())
             given.push_back(e.key);
     if (given.size() > 1 && rule.rule != Exclusion::Rule::at_least_one) {
-        add_refusal(Refusal{given[1], fmt::format("at most one of {} may be given, found {}",
+        add_refusal(Refusal{given[1], fmt::format("only one of {} may be given, found {}",
                                                   fmt::join(rule.names, ", "), fmt::join(given, " and "))},
                     owner, map, problems);
         return false;
@@ -278,7 +278,7 @@ std::string hint_of_number(const Declaration& declaration, const Option& primary
     if (ways.empty()) return {};
     const std::string last = ways.back();
     ways.pop_back();
-    return fmt::format("a number is given by the name of its option: {}{}{}", fmt::join(ways, ", "),
+    return fmt::format("a number needs the name of its option: {}{}{}", fmt::join(ways, ", "),
                        ways.empty() ? "" : " or ", last);
 }
 
@@ -330,8 +330,8 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         if (const Option* o = bare ? other_choice(*this, *bare, value) : nullptr) {
             problems.add(
                 value.mark, "E-TYPE",
-                fmt::format("a bare value of {} is its '{}', found {}", owner, bare->name, value.described()),
-                fmt::format("{} is a value of '{}': give it that name", value.text, o->name));
+                fmt::format("a bare value of {} sets '{}', found {}", owner, bare->name, value.described()),
+                fmt::format("{} is a value of '{}', so write that name", value.text, o->name));
             return false;
         }
         if (const std::string hint = bare ? hint_of_number(*this, *bare, owner, value) : ""; !hint.empty()) {
@@ -340,7 +340,7 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         }
         if (bare) return parse(as_map(*bare, value), target, owner, problems, also_known);
         problems.add(value.mark, "E-VALUE",
-                     fmt::format("{} takes no bare value, found {}", owner, value.described()),
+                     fmt::format("{} does not accept a bare value, found {}", owner, value.described()),
                      hint_of_bare_value(*this, owner, value));
         return false;
     }
@@ -351,8 +351,8 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         if (const Option* o = find(entry.key)) {
             if (const Option* share = meant_share(*this, *o, entry.value)) {
                 good = wrong_type(entry.value, "an integer", problems,
-                                  fmt::format("a share is the value of '{0}': write {1}: {{{0}: {2}}}",
-                                              share->name, owner, entry.value.text));
+                                  fmt::format("a ratio sets '{0}': write {1}: {{{0}: {2}}}", share->name,
+                                              owner, entry.value.text));
                 continue;
             }
             good &= parse_option(*o, entry.value, target, problems);

@@ -29,7 +29,7 @@ Json described(const Field& field) {
     std::string about = field.help;
     if (!field.unit.empty()) about += fmt::format(" In {}.", field.unit);
     if (!field.null_when.empty()) about += fmt::format(" Null when {}.", field.null_when);
-    if (!field.only_when.empty()) about += fmt::format(" Only when {}.", field.only_when);
+    if (!field.only_when.empty()) about += fmt::format(" Present only when {}.", field.only_when);
     if (!about.empty()) schema["description"] = about;
     return schema;
 }

@@ -33,14 +33,14 @@ std::string hint_of_foreign_expression(std::string_view text) {
     const bool name = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-' || c == '.';
     });
-    return name ? fmt::format("the value of a param is written ${{{}}}", text) : "";
+    return name ? fmt::format("write the value of a param as ${{{}}}", text) : "";
 }
 
 } // namespace
 
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint) {
     if (hint.empty() && value.is_scalar()) hint = hint_of_foreign_expression(value.text);
-    if (hint.empty() && value.is_scalar() && value.quoted) hint = "leave the quotes out";
+    if (hint.empty() && value.is_scalar() && value.quoted) hint = "remove the quotes";
     problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()),
                  std::move(hint));
     return false;
@@ -101,8 +101,9 @@ std::string hint_of_number(const Value& value) {
     const bool length =
         std::any_of(length_units.begin(), length_units.end(), [&](const auto& u) { return u.first == unit; });
     if (!length) return {};
-    return fmt::format("it has no unit here: write {}; transform: {{unit: {}}} converts a scene to a unit",
-                       to_string(number), unit);
+    return fmt::format(
+        "the number has no unit here: write {}; transform: {{unit: {}}} converts a scene to a unit",
+        to_string(number), unit);
 }
 
 } // namespace
@@ -234,17 +235,17 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     if (!parts || !(parts->second == "%" || parts->second == "pct" || parts->second.empty())) {
         const auto count = integer_meant(value); // accepts, for example, 10k
         return wrong_type(value, expected, problems,
-                          count ? fmt::format("name the option that counts (faces: {})", *count) : "");
+                          count ? fmt::format("name the option for a count (faces: {})", *count) : "");
     }
     const bool percent = !parts->second.empty();
     const bool whole = value.text.find('.') == std::string::npos && parts->first == std::floor(parts->first);
     if (!percent && whole && parts->first != 0) { // 5e-1 is not a ratio
         const auto hint =
-            parts->first < 0 ? "a ratio is not below 0"
+            parts->first < 0 ? "a ratio cannot be negative"
             : parts->first <= 100
-                ? fmt::format("write {}%, or name the option that counts (faces: {})",
+                ? fmt::format("write {}%, or name the option for a count (faces: {})",
                               parts->first == 1 ? "100" : value.text, value.text)
-                : fmt::format("a ratio has a point or a % (50%); for a count write faces: {}", value.text);
+                : fmt::format("a ratio needs a point or a % (50%); for a count write faces: {}", value.text);
         return wrong_type(value, expected, problems, hint);
     }
     out.value = percent ? parts->first / 100 : parts->first;

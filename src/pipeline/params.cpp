@@ -356,8 +356,8 @@ class Params {
             std::find(options.choices.begin(), options.choices.end(), value.text) != options.choices.end())
             return true;
         problems.add(value.mark, "E-CHOICE",
-                     fmt::format("'{}' is one of {}, found {}", entry.key, fmt::join(options.choices, ", "),
-                                 value.described()),
+                     fmt::format("'{}' must be one of {}, found {}", entry.key,
+                                 fmt::join(options.choices, ", "), value.described()),
                      did_you_mean(value.text, options.choices));
         return false;
     }

@@ -176,9 +176,9 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         }
         check.passed = holds(assertion, properties).value_or(assertion.if_applies);
         if (!check.passed && asks_exactly(property, assertion.bound))
-            check.hint = "a bare value asks for exactly that: min asks for at least, max for at most";
+            check.hint = "a bare value requires exactly this value; use min for at least, max for at most";
         else if (!check.passed && lacks_faces(property, properties))
-            check.hint = "the scene has points and no faces: most checks and stages are for faces";
+            check.hint = "the scene has points but no faces, and most checks and stages need faces";
         else if (!check.passed && hint_fits(property, assertion.bound, properties))
             check.hint = property.hint;
         check.where = assertion.where;

@@ -36,11 +36,11 @@ void warn_of_bind_pose(const Scene& scene, Context& context) {
     if (names.empty()) return;
     context.warn(
         "W-BIND-POSE",
-        fmt::format("{}: {} {} {} in bind pose, which lies elsewhere than what is shown, where the "
-                    "joints place it",
+        fmt::format("{}: {} {} {} in bind pose, but viewers show another pose, which the joints define",
                     context.name(), names.size() == 1 ? "part" : "parts", join_texts(names),
                     names.size() == 1 ? "is" : "are"),
-        "planes, boxes and points are for the bind pose: info has its bounds, render shows the other");
+        "give planes, boxes and points in the bind pose; info prints its bounds, render shows the other "
+        "pose");
 }
 
 } // namespace facetmill

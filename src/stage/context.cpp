@@ -113,10 +113,9 @@ double Context::resolve(const Length& length, const Scene& scene, std::string_vi
         is = length.amount / 100 * whole;
     }
     if (!std::isfinite(is))
-        throw Error(
-            ErrorKind::stage, "E-RANGE",
-            fmt::format("'{}' is {}, and that is beyond 1.8e308, the largest number", option, length.text),
-            "transform: {scale: 1e-300} first");
+        throw Error(ErrorKind::stage, "E-RANGE",
+                    fmt::format("'{}' is {}, beyond 1.8e308, the largest number", option, length.text),
+                    "use transform: {scale: 1e-300} first");
     const bool of_part = length.kind == Length::Kind::percent && length.of == Length::Of::part && part;
     set_resolved(
         record_.resolved,

@@ -50,23 +50,19 @@ DeviationSettings DeviationLimits::settings() const {
 void declare_deviation(Declare<DeviationLimits>& d) {
     using From = DeviationLimits::From;
     d.option("max", &DeviationLimits::max,
-             "The limit of the largest distance from either surface to the other (a length).")
+             "The limit of the largest distance from each surface to the other.")
         .at_least(0)
         .primary();
-    d.option("rms", &DeviationLimits::rms,
-             "The limit of the root mean square distance over the area (a length).")
+    d.option("rms", &DeviationLimits::rms, "The limit of the root mean square distance over the area.")
         .at_least(0);
-    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance over the area (a length).")
-        .at_least(0);
+    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance over the area.").at_least(0);
     d.choice<From>(
         "from", &DeviationLimits::from,
-        {{"stage", From::stage, "the scene that entered the step"},
-         {"load", From::load, "the scene as last loaded"}},
-        "What the scene is compared with; as a stage of its own ensure always compares with load.");
+        {{"stage", From::stage, "the input of the step"}, {"load", From::load, "the scene as last loaded"}},
+        "The scene to compare with. The stage ensure always uses load.");
     d.option("samples", &DeviationLimits::samples,
-             "The number of points spread over the area, each way, all of them measured (a count; 100000 "
-             "unless given, and rms and mean are of as many of these as they need); all vertices are "
-             "measured in addition.")
+             "The number of sample points in each direction. All of them are measured, and all vertices as "
+             "well. Default: 100000, and rms and mean use only as many of these as they need.")
         .between(0, 1e9);
     d.option("seed", &DeviationLimits::seed, "The seed of the sample positions.").at_least(0);
     d.option("certify", &DeviationLimits::certify,
@@ -99,7 +95,7 @@ Json contract_schema() {
     Json schema = assertions_schema();
     Json deviation = deviation_declaration().schema();
     deviation["description"] =
-        "How far the surface may be from the scene that entered the step, measured both ways.";
+        "The largest distance between the result of the step and its input, in both directions.";
     schema["properties"]["deviation"] = std::move(deviation);
     return schema;
 }
@@ -107,7 +103,7 @@ Json contract_schema() {
 Json contract_result_schema() {
     Json schema = deviation_fields().schema();
     schema["description"] =
-        "How far the scene is from what it is compared with. Only when ensure limits the deviation.";
+        "The deviation from the compared scene. Present only when ensure limits the deviation.";
     return schema;
 }
 

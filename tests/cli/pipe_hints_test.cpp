@@ -11,8 +11,8 @@ TEST_CASE("hints name stages and options as pipe takes them", "[cli]") {
     const Case cases[] = {
         {"give both when you load it: load: {path: ..., unit: mm, up: z}",
          "give both when you load it: load ... --unit mm --up z"},
-        {"write 10%, or name the option that counts (faces: 10)",
-         "write 10%, or name the option that counts (--faces 10)"},
+        {"write 10%, or name the option for a count (faces: 10)",
+         "write 10%, or name the option for a count (--faces 10)"},
         {"the common key when: {faces: {min: 1}} skips a write",
          "the common key --when.faces.min 1 skips a write"},
         {"clean: {self_intersections: all} unites or replaces",

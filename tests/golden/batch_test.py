@@ -206,7 +206,7 @@ class Batch(Case):
         run = self.batch("--input", "in/**/*.stl", expect=3)
         self.assertIn("no file matches 'in/**/*.stl'", run.stderr)
         self.assertIn("^~~", run.stderr)
-        self.assertIn("without --input", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
+        self.assertIn("give --input, --inputs-from or --table", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
 
     def test_odd_names(self):
         names = ["blank s", "$HOME", "#1", "100%", "'q'\"", "ünïcode", "[a]", "new\nline", "${input}", "a&b;c", "-dash"]
@@ -525,7 +525,7 @@ stages:
         self.assertEqual(len(self.written()), 6)
 
     def test_arguments(self):
-        for arguments, said in ((("--memory", "much"), "--memory takes an amount"), (("--report", "r.pdf"), "E-REPORT"),
+        for arguments, said in ((("--memory", "much"), "--memory needs a size"), (("--report", "r.pdf"), "E-REPORT"),
                                 (("--set", "relax.x=1"), "E-"), (("-j", "0"), "E-ARGUMENT")):
             self.assertIn(said, self.batch(*arguments, expect=2).stderr)
         self.assertIn("FACETMILL_JOBS", self.batch(env={"FACETMILL_JOBS": "many", "MAKEFLAGS": ""}, expect=2).stderr)

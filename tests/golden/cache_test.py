@@ -310,7 +310,7 @@ class Keys(Cache):
         for nowhere in ("", "relative", str(self.dir / "none"), "/proc/none"):
             self.assertEqual(self.run_it(env={**home, "HOME": nowhere}), expected)
             self.assertFalse((self.dir / "none").exists())
-            self.assertIn("no folder for a cache", self.mill("cache", "stats", env={**home, "HOME": nowhere}, expect=2).stderr)
+            self.assertIn("the cache has no folder", self.mill("cache", "stats", env={**home, "HOME": nowhere}, expect=2).stderr)
             self.run_it("--cache", env={**home, "HOME": nowhere}, expect=2)
         (self.dir / "home/.cache").write_text("a file")
         self.assertEqual(self.run_it(env=home), expected)
@@ -430,7 +430,7 @@ class Trouble(Cache):
         refused = self.limited(least + (8 << 20), "run", "c.yaml", *ALL, "-q", "-j1", "-o", "out")
         self.assertEqual(refused.returncode, 7)
         self.assertIn("there is not enough memory to cut", refused.stderr)
-        self.assertIn("combine some of the parts at a time", refused.stderr)
+        self.assertIn("combine fewer parts at a time", refused.stderr)
         self.assertEqual(self.told("run", "c.yaml", *ALL)[0], 0)
 
     @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")

@@ -512,7 +512,7 @@ class Process(Case):
         self.write("bad.yaml", "facetmill: 1\nstages: [{load: t.off}, {relux: 3}]\n")
         run = self.mill("check", "none.yaml", "bad.yaml", expect=2)
         self.assertIn("E-STAGE", run.stderr)
-        self.assertIn("there is no pipeline 'none.yaml'", run.stderr)
+        self.assertIn("pipeline 'none.yaml' does not exist", run.stderr)
 
     def test_draco_files_and_options_of_other_formats(self):
         self.write("t.off", TRIANGLE)
@@ -542,7 +542,7 @@ class Process(Case):
         self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
         for name in "fg":
             self.write(f"{name}.yaml", "facetmill: 1\nstages: [{load: t.off}]\nreport: r.json\n")
-        self.assertIn("'r.json' is written by another pipeline", self.mill("run", "f.yaml", "g.yaml", expect=2).stderr)
+        self.assertIn("another pipeline of this run also writes 'r.json'", self.mill("run", "f.yaml", "g.yaml", expect=2).stderr)
         self.write("d.yaml", "facetmill: 1\nstages: [{laod: t.off}]\n")
         self.write("e.yaml", "facetmill: 1\nstages: [{load: t.off}, {wirte: a.ply}]\n")
         run = self.mill("check", "d.yaml", "e.yaml", expect=2)

@@ -249,8 +249,9 @@ TEST_CASE("clip refuses what is no plane", "[stages]") {
         " | for example {min: [0, 0, 0], max: [1, 1, 1]} or {centre: [0, 0, 0], size: [1, 1, 1]}";
     CHECK(clip_refusal(map({{"box", map({{"min", numbers({"0", "0", "0"})}})}})) ==
           std::string("usage [E-BOX] a box needs min and max, or centre and size") + hint);
-    CHECK(clip_refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
-          "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min in all three");
+    CHECK(
+        clip_refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
+        "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min along all three axes");
     CHECK(clip_refusal(map({{"box", text("1,2")}}))
               .starts_with("usage [E-TYPE] expected a box ({min: [0, 0, 0]"));
 }
@@ -263,11 +264,9 @@ TEST_CASE("split takes a method or a grid", "[stages]") {
     CHECK(faces(text("centroid")) == 36);
     CHECK(faces(map({{"grid", text("3")}})) == 108);
     CHECK(faces(map({{"method", text("midpoint")}, {"passes", text("2")}})) == 192);
-    CHECK(
-        test::failure([&] {
-            faces(map({{"method", text("bisect")}, {"grid", text("3")}}));
-        }) ==
-        "usage [E-CONFLICT] split: 'grid' goes with the method grid only | leave out either method or grid");
+    CHECK(test::failure([&] {
+              faces(map({{"method", text("bisect")}, {"grid", text("3")}}));
+          }) == "usage [E-CONFLICT] split: 'grid' needs the method grid | remove either method or grid");
     CHECK(test::failure([&] { faces(text("grid")); }) ==
           "usage [E-MISSING] split: the method grid needs 'grid', the number of segments per edge | for "
           "example split: {grid: 3}");

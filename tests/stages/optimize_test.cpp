@@ -353,7 +353,7 @@ TEST_CASE("that a palette would have too many looks is told", "[stages]") {
     REQUIRE(run.record.warnings.size() == 1);
     CHECK(run.record.warnings[0].id == "W-PALETTE");
     CHECK(run.record.warnings[0].message ==
-          "optimize: no palette was made of 513 different looks: it has at most 512");
+          "optimize: no palette was made of 513 materials: it has at most 512");
     CHECK(run_stage("optimize", "{palette: true, drop_attributes: true}", coloured(512, 0.001))
               .record.warnings.empty());
 }

@@ -122,9 +122,8 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
     const auto refusal = [](const char* options) {
         return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
     };
-    CHECK(refusal("{path: a.pdf}") ==
-          "usage [E-DRAWING] test.yaml:1:8: section: drawings are not written as 'a.pdf' | the formats "
-          "are .svg, .dxf and .json");
+    CHECK(refusal("{path: a.pdf}") == "usage [E-DRAWING] test.yaml:1:8: section: 'a.pdf' is not a supported "
+                                      "drawing format | use .svg, .dxf and .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
           "usage [E-PLANE] test.yaml:1:1: the plane's normal is zero, so it has no direction | for example "
           "normal: [0, 0, 1]");

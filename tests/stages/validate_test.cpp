@@ -399,11 +399,12 @@ TEST_CASE("validate says that a bare value of a measure is asked for exactly", "
     const auto hint = [](const char* options) {
         return run_stage("validate", options, scene_of(shapes::cube())).state->record.checks.at(0).hint;
     };
-    const std::string exactly = "a bare value asks for exactly that: min asks for at least, max for at most";
+    const std::string exactly =
+        "a bare value requires exactly this value; use min for at least, max for at most";
     CHECK(hint("{min_angle: 30}") == exactly);
     CHECK(hint("{longest_edge: 2}") == exactly);
     CHECK(hint("{volume: 2}") == exactly);
-    CHECK(hint("{min_angle: {min: 60}}") == "relax makes faces more regular");
+    CHECK(hint("{min_angle: {min: 60}}") == "use relax to make faces more regular");
     CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // an exact count is a sensible requirement
     CHECK(hint("{volume: 0}") != exactly);
 }

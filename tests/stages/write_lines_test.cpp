@@ -215,7 +215,7 @@ TEST_CASE("stages that work on faces leave points as they are, and say so", "[st
     }
     for (const char* options : {"{volume: {min: 1}}", "{isolated_vertices: 0}", "{min_angle: {min: 5}}"})
         CHECK(run_stage("validate", options, scene_of(points)).state->record.checks.at(0).hint ==
-              "the scene has points and no faces: most checks and stages are for faces");
+              "the scene has points but no faces, and most checks and stages need faces");
     CHECK(run_stage("validate", "{parts: 2}", scene_of(points)).state->record.checks.at(0).hint ==
           property_named("parts")->hint);
 }

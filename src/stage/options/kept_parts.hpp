@@ -39,10 +39,10 @@ template <class Report>
 void declare_kept_parts(DeclareFields<Report>& d, KeptParts Report::*kept) {
     d.field(
         "untouched_parts", [kept](const Report& r) { return (r.*kept).untouched; },
-        "Parts that were kept as they are.");
+        "Parts that were kept unchanged.");
     d.field(
         "emptied_parts", [kept](const Report& r) { return (r.*kept).emptied; },
-        "Parts of which nothing was kept.");
+        "Parts that lost all their faces or points.");
 }
 
 } // namespace facetmill

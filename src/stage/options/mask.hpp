@@ -12,20 +12,19 @@ void declare_mask(Declare<MaskSettings>& d);
 
 /// The help of the group.
 inline constexpr const char* mask_help =
-    "Which vertices move, and what share of the way: those whose faces all have the material and the group, "
-    "times the attribute.";
+    "Limits the movement of vertices. A vertex moves if all its faces have the given material and group. The "
+    "attribute scales its movement.";
 
 /// Whether the caps of cuts may move.
 enum class Caps { fixed, free };
 
 template <class Options>
 void declare_caps(Declare<Options>& d, Caps Options::*caps) {
-    d.template choice<Caps>(
-        "caps", caps,
-        {{"fixed", Caps::fixed, "they stay planar, and so does the edge of the cut"},
-         {"free", Caps::free, "they move like all others"}},
-        "How the vertices of caps move: those of the faces with which clip, crop and tile "
-        "close their cuts (face attribute cut_id).");
+    d.template choice<Caps>("caps", caps,
+                            {{"fixed", Caps::fixed, "the caps and the edges of the cut stay planar"},
+                             {"free", Caps::free, "vertices of caps move like all others"}},
+                            "How to handle the vertices of caps, the faces with which clip, crop and tile "
+                            "close their cuts (face attribute cut_id).");
 }
 
 /// The masks of the selected parts, with a warning if they leave no vertex to move.

@@ -161,18 +161,19 @@ std::string OptionType<PlaneCoefficients>::print(const PlaneCoefficients& value)
 Json OptionType<PlaneCoefficients>::schema() { return numbers_schema(4); }
 
 void declare_plane(Declare<PlaneOption>& d) {
-    d.option("normal", &PlaneOption::normal, "The normal of the plane, of any length except zero.");
+    d.option("normal", &PlaneOption::normal,
+             "The normal of the plane. Its length can be any number except zero.");
     d.option("through", &PlaneOption::through,
              "A point of the plane in scene units, centre (of the bounding box), or a percentage of the "
-             "extent along the normal, where 0% is behind everything.");
+             "extent along the normal. At 0%, everything is in front.");
     d.option("coefficients", &PlaneOption::coefficients,
              "A, B, C, D of A x + B y + C z + D = 0, in scene units; the normal is (A, B, C).");
     d.at_most_one({"normal", "coefficients"});
     d.at_most_one({"through", "coefficients"});
     const Json text = {{"type", "string"}, {"pattern", "^ *[xyz] *="}};
     d.shorthand(ShortForm::text_or_list,
-                "z=0.2, x=10%, y=2mm or z=centre: the plane perpendicular to that axis at that position; [A, "
-                "B, C, D]: its coefficients",
+                "z=0.2, x=10%, y=2mm or z=centre means the plane perpendicular to that axis at that "
+                "position. [A, B, C, D] gives the coefficients.",
                 {{"anyOf", Json::array({text, OptionType<PlaneCoefficients>::schema()})}},
                 [](const Value& value, PlaneOption& out, Problems& problems) {
                     return parse_short(value, out, problems);

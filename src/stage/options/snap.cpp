@@ -23,11 +23,11 @@ std::optional<double> seen_rounding(const Mesh& mesh) {
 void warn_of_snapping(const std::string& part, std::size_t vertices, double apart, const std::string& what,
                       Context& context) {
     context.warn("W-SNAPPED",
-                 fmt::format("{} of part '{}' {} as on {} though up to {:.2g} away: 32-bit floats, which its "
-                             "positions seem to be, are so far apart there",
+                 fmt::format("{} of part '{}' {} as on {} though up to {:.2g} away, because 32-bit floats "
+                             "are that far apart at this distance from the origin",
                              counted(vertices, "vertex", "vertices"), part,
                              vertices == 1 ? "counts" : "count", what, apart),
-                 "positions are taken as they are where nothing is snapped (snap: 0)");
+                 "use snap: 0 to keep positions exact");
 }
 
 } // namespace facetmill

@@ -28,14 +28,14 @@ A part without remaining faces stays in the scene as an empty part.
 A box keeps its inside, or everything around it with keep: outside.
 The two results fit together exactly, and caps close both.
 The same holds for several planes with keep: both.
-keep: back alone keeps the region behind every plane.
+With keep: back alone, the stage keeps the region behind every plane.
 
 New vertices and wedges are interpolated once per edge and pair of wedges, so seams are preserved.
 New faces copy the attributes of their original face.
 Caps have their own primitive and material and the normal of the plane.
 They get planar texture coordinates if the part has TEXCOORD_0, and zeros in other face attributes.
 The face attributes cut_id and group identify the caps.
-cut_id is the number of the plane, and 0 elsewhere.
+The number in cut_id is the number of the plane, and 0 elsewhere.
 
 Source: P. Bourke, 'Clipping Polygonal Facets with an Arbitrary Plane' (1997).)";
 

@@ -64,7 +64,7 @@ void declare(Declare<ClipOptions>& d) {
          {"front", Keep::front, "the side that the normal points to, or the inside of the box"},
          {"back", Keep::back, "the other side, or the outside of the box"},
          {"both", Keep::both,
-          "both sides, as parts NAME.front and NAME.back (NAME.inside and NAME.outside for a box); with "
+          "both sides, as parts NAME.front and NAME.back (for a box, NAME.inside and NAME.outside). With "
           "several planes, the back is everything that is not in front of all of them"}},
         "The side to keep.");
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);

@@ -15,8 +15,8 @@ struct EnsureOptions {
 void declare(Declare<EnsureOptions>& d) {
     declare_properties(d, &EnsureOptions::assertions, "ensure");
     d.group("deviation", &EnsureOptions::deviation,
-            "How far the surface may be from the scene as loaded, measured both ways; as a common key of a "
-            "stage, from the scene that entered it.",
+            "The largest distance from the surface to the scene as loaded, in both directions. As a common "
+            "key, ensure measures from the input of its stage.",
             declare_deviation);
 }
 

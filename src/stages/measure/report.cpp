@@ -106,8 +106,8 @@ void declare_faces(DeclareFields<FaceResult>& d) {
              statistics_fields());
     d.field(
          "signed_area", &FaceResult::signed_area,
-         "The signed areas of the faces projected along x, y and z, added up. A face that runs anticlockwise "
-         "counts as positive, seen from the positive side of the axis. Zero for a closed surface.")
+         "The signed areas of the faces projected along x, y and z, added up. Faces that run anticlockwise, "
+         "seen from the positive side of the axis, count as positive. Zero for a closed surface.")
         .unit("square scene units");
     d.counts("kinds", kinds_of, names, "The number of faces of each kind that occurs.");
     d.field(

@@ -9,7 +9,7 @@ const RegisterMessages optimize_messages{
      "Remove the extension first if you do not need it."},
     {"W-PALETTE",
      "`optimize` made no palette, because texture coordinates cannot distinguish more than 512 materials.",
-     "Optimize some of the parts at a time with `only`."},
+     "Use `only` to optimize fewer parts at a time."},
 };
 
 } // namespace facetmill

@@ -3,9 +3,9 @@
 namespace facetmill {
 
 const RegisterMessages section_messages{
-    {"W-OPEN-SECTION", "A section has open contours, because the mesh is open where the plane cuts it.",
-     "Close holes with `clean`. A surface without an inside, such as a terrain, has open lines as its "
-     "section, and they have no area."},
+    {"W-OPEN-SECTION", "A section has open contours because the mesh is open where the plane cuts it.",
+     "Close holes with `clean`. The section of a surface without an inside, such as a terrain, consists of "
+     "open lines without area."},
     {"W-SECTION-CROSSES",
      "Contours of a section intersect themselves. Every region that they wind around, in either direction, "
      "counts as inside.",

@@ -26,11 +26,11 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
         if (!box.empty()) lines += box.diagonal() / spacing;
     }
     if (!(lines <= max_lines))
-        throw Error(ErrorKind::limit, "E-HATCH",
-                    fmt::format("hatching all sections would take about {:.0f} lines, and at most {:.0f} "
-                                "are drawn",
-                                lines, max_lines),
-                    "choose a larger spacing, or fewer planes");
+        throw Error(
+            ErrorKind::limit, "E-HATCH",
+            fmt::format("hatching all sections would take about {:.0f} lines, but the limit is {:.0f}", lines,
+                        max_lines),
+            "choose a larger spacing, or fewer planes");
 }
 
 /// The extent of the selected parts along the normal.
@@ -50,7 +50,7 @@ Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, 
     std::optional<double> spacing;
     if (o.spacing) spacing = context.resolve(*o.spacing, scene, "spacing");
     if (spacing && !(*spacing > 0))
-        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' must be above zero, and it is 0 in this scene",
+        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' is 0 in this scene, but it must be above zero",
                     "give a length in scene units, or count");
     return stack_of(extent(), spacing, o.count);
 }

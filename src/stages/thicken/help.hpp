@@ -14,7 +14,7 @@ A closed component becomes solid if no ball fits into it whose radius is the thi
 Each vertex moves so that the planes of its faces move by the thickness, as closely as one position
 allows.
 Flat walls therefore keep their thickness up to their corners.
-miter_limit limits the movement at sharp corners.
+The option miter_limit limits the movement at sharp corners.
 The solid is closed only if the surface is oriented (W-THICKEN-OPEN), so use orient first.
 Sheets become separate solids if they meet only at a vertex, or at an edge with more than two faces.
 Instances of a mesh with the same rotation and scale are thickened once and share the result.
@@ -29,7 +29,7 @@ back; walls take the attributes of their edge and have normals of their own.
 
 With self_intersections: resolve, boolean operations rebuild a solid that folds or intersects
 itself.
-A closed surface gives its own solid minus the solid of the moved copy.
+A closed surface gives the volume between itself and its moved copy.
 If there is too little room for the thickness, the wall becomes thinner or fills the space.
 Cavities and pieces smaller than a cube of the thickness are removed.
 An open surface becomes the solid enclosed by its two sides and its walls.

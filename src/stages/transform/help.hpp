@@ -3,7 +3,7 @@
 
 namespace facetmill::help::transform {
 
-inline constexpr const char* about = R"(Moves, rotates and scales parts; converts units and the up axis.)";
+inline constexpr const char* about = R"(Moves, rotates and scales parts. Converts units and the up axis.)";
 
 inline constexpr const char* details =
     R"(The operations always run in this order: unit and up (for the whole scene), scale, rotate, matrix,
