@@ -8,7 +8,7 @@ inline constexpr const char* about =
 
 inline constexpr const char* details =
     R"(It takes the same assertions as the common key `ensure`, but is a separate stage: it checks the
-scene at this point of the pipeline. Use validate to get evidence, to check each part, or to warn
-only. The mesh passes on unchanged.)";
+scene at this point of the pipeline. Use validate to get evidence, to check each part, to warn only, or
+to judge the file after write. The mesh passes on unchanged.)";
 
 } // namespace facetmill::help::ensure
