@@ -33,11 +33,13 @@ about: A mesh becomes a checked file for the web.
 
 params:                            # values come from -D keep=10%, or from a file of them: -p phone.yaml
   input: {type: path, help: The mesh to read}
-  unit: {type: choice, default: m, choices: [mm, cm, m], help: The unit of the mesh}
+  unit: {type: choice, default: auto, choices: [auto, mm, cm, m], help: "The unit; auto: as the file states"}
+  up: {type: choice, default: auto, choices: [auto, y, z], help: "The up axis; auto: as the file states"}
   keep: {type: ratio, default: 25%, help: The share of the triangles to keep}
 
 stages:
-  - load: {path: "${input}", unit: "${unit}", up: y}    # relative to this file; paths after -D to the working directory
+  # relative to this file; paths after -D to the working directory
+  - load: {path: "${input}", unit: "${unit}", up: "${up}"}
   - clean                          # merges coinciding vertices, drops degenerate and duplicate faces
   - simplify: "${keep}"
     ensure: {deviation: 2%}        # a contract, checked right after the stage: exit code 1 if it does not hold

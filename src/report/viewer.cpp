@@ -146,9 +146,13 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     Distances distances;
     if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
     PackedMesh mesh = report::packed(preview, distances.all, distances.scale);
-    // A scene without an up axis uses that of the first.
-    const Camera camera = first_ && first_up_ == scene.up ? *first_ : camera_of(scene);
-    if (!first_) stand_as(camera, scene.up);
+    // A scene without an up axis uses that of its file, otherwise that of the first.
+    const UpAxis up = scene.up == UpAxis::unknown ? from.file_up : scene.up;
+    const Camera camera = first_ && first_up_ == up ? *first_
+                          : up == scene.up          ? camera_of(scene)
+                          : up == UpAxis::z         ? Camera{.up = {0, 0, 1}, .front = {0, -1, 0}, .seen = {}}
+                                                    : Camera{.up = {0, 1, 0}, .front = {0, 0, 1}, .seen = {}};
+    if (!first_) stand_as(camera, up);
     Json json = {{"name", name},
                  {"faces", preview.faces},
                  {"lines", preview.all_lines},

@@ -19,6 +19,8 @@ struct ViewedFrom {
     const FaceTree* tree = nullptr; ///< null: no coloured distances
     std::string name{};
     std::optional<Index> last_cap{}; ///< see SignedDeviationSettings::last_cap
+    /// The up axis of the file, for a scene without one: readers of the file assume it.
+    UpAxis file_up = UpAxis::unknown;
 };
 
 /// Collects the scenes of a view: one before, and the scenes after it.

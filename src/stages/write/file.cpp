@@ -3,6 +3,7 @@
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
 #include "geometry/normals/tangents.hpp"
+#include "geometry/render/render.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/optimize/document_optimizer.hpp"
@@ -21,6 +22,9 @@
 namespace facetmill::write_stage {
 
 namespace {
+
+/// The up axis that pictures assume for a scene without one.
+UpAxis up_in_pictures(const Scene& scene) { return camera_of(scene).up.z > 0 ? UpAxis::z : UpAxis::y; }
 
 /// Joins all parts in world space, as in a plain Draco file.
 Mesh in_one(const Scene& scene) {
@@ -130,17 +134,29 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
     if (o.up != UpAxis::unknown && scene.up == UpAxis::unknown)
         throw Error(ErrorKind::stage, "E-UP", "the scene has no up axis, so it cannot be rotated",
                     "give the up axis when you load it: load: {path: ..., up: z}", context.where());
+    const UpAxis seen = scene.up == UpAxis::unknown && target.up != UpAxis::unknown && scene.face_count() > 0
+                            ? up_in_pictures(scene)
+                            : target.up;
     const io::Conversion done = io::convert(scene, target);
     if (done.unit_guessed)
         context.warn("W-UNITS",
                      fmt::format("the scene has no unit: '{}' gets its numbers unchanged, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
-                     "give both when it is loaded: load: {path: ..., unit: mm, up: z}");
+                     "give both when you load it: load: {path: ..., unit: mm, up: z}, or -D unit=mm -D up=z "
+                     "for a built-in pipeline");
     if (scene.parts.empty() && (done.factor != 1 || done.turned))
         context.warn("W-TRANSFORM",
                      fmt::format("the scene has no meshes: the nodes in '{}' keep the numbers of the input",
                                  o.path.text),
                      "load it without unit and up");
+    if (seen != target.up)
+        context.warn("W-UP",
+                     fmt::format("the scene has no up axis: '{}' keeps its axes, and {} means {} up, but the "
+                                 "mesh seems to have {} up",
+                                 o.path.text, codec.name, to_string(target.up), to_string(seen)),
+                     fmt::format("give it when you load it: load: {{path: ..., up: {}}}, or -D up={} of a "
+                                 "built-in pipeline; up: {} if it does not lie on its side",
+                                 to_string(seen), to_string(seen), to_string(target.up)));
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
 }

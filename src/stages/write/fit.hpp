@@ -6,11 +6,12 @@
 
 namespace facetmill::write_stage {
 
-/// Rounds the parts to 32-bit floats as the file will, and repairs what that spoils: it welds, splits and
-/// moves vertices, and resolves intersections. Parts that rounding does not spoil are left unchanged.
-/// Returns, for each part, the mesh that was replaced, if any.
+/// Rounds the parts as the file will, and repairs what that spoils. On 32-bit floats it welds, splits and
+/// moves vertices, and resolves intersections. On a grid it only welds vertices and removes faces. Parts that
+/// rounding does not spoil are left unchanged. Returns, for each part, the mesh that was replaced, if any.
 [[nodiscard]] std::vector<std::optional<Mesh>> make_fit(Scene& scene, const Purpose& purpose,
-                                                        const io::Codec& codec, Context& context);
+                                                        const io::Codec& codec,
+                                                        const io::WriteSettings& write, Context& context);
 
 /// Reads the file back and judges it. Adds a check for each assertion that does not hold. Returns true if all
 /// hold.

@@ -60,10 +60,10 @@ void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOption
     }
 }
 
-/// Makes the written parts fit the purpose in the floats of the file.
+/// Makes the written parts fit the purpose in the precision of the file.
 void keep_fit(Scene& out, std::vector<Lent>& lent, const Purpose& purpose, const io::Codec& codec,
-              Context& context) {
-    auto replaced = make_fit(out, purpose, codec, context);
+              const io::WriteSettings& settings, Context& context) {
+    auto replaced = make_fit(out, purpose, codec, settings, context);
     for (std::size_t k = 0; k < lent.size(); ++k) {
         if (!replaced[k]) continue;
         if (lent[k].positions) replaced[k]->positions = *std::exchange(lent[k].positions, std::nullopt);
@@ -253,7 +253,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (out.face_count() == 0 && !document) check_points(out, o, *codec, context);
     ProgressSteps steps({1, 4, 5});
     say_of_triangles(out, o, *codec, context);
-    if (o.triangulate && codec->can.polygons) make_triangles(out, lent);
+    const std::shared_ptr<const Purpose> purpose = context.trail().purpose;
+    if (codec->can.polygons ? o.triangulate : purpose != nullptr) make_triangles(out, lent);
     give_normals(out, lent, o, context);
     give_tangents_to_all(out, lent, o, context);
     const std::filesystem::path target = context.places().output(o.path.text);
@@ -267,10 +268,9 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     to_convention(out, o, *codec, context, report);
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
-    const std::shared_ptr<const Purpose> purpose = context.trail().purpose;
-    const bool has_grid = settings.draco.on || settings.quantize.on; // coarser than floats
-    if (purpose && !settings.double_positions && !has_grid) keep_fit(out, lent, *purpose, *codec, context);
     choose_bits(settings, o, *codec, out, report);
+    if (purpose && !settings.double_positions && !codec->can.tiles)
+        keep_fit(out, lent, *purpose, *codec, settings, context);
     settings.draco.keep_decoded = context.reads_back();
     steps.next();
     const io::Written written = codec->write(out, settings);
