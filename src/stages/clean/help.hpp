@@ -51,6 +51,9 @@ the farthest coordinate. Nothing is moved that would turn a face over, take its 
 another, which is decided exactly; such vertices stay where they are (W-CLEAN). apart: false leaves
 all of them where they are.
 
+unit_vectors: true, which is last, mends normals, tangents and joint weights that the checks
+unit_normals and weights_normalized refuse. Others keep their values.
+
 The attributes of remaining elements are kept. At new vertices they are interpolated, and patches
 copy the face attributes of the faces at their boundary edges. The report counts what each step did.)";
 

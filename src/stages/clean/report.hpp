@@ -9,6 +9,7 @@ namespace facetmill::clean_stage {
 struct CleanedPart {
     std::string part;
     CleanCounts counts;
+    std::size_t scaled = 0;        ///< vectors and weights of wedges
     std::vector<NotDone> not_done; ///< the first few, in world space
 };
 
