@@ -27,7 +27,7 @@ void warn_of_snapping(const std::string& part, std::size_t vertices, double apar
                              "positions seem to be, are so far apart there",
                              counted(vertices, "vertex", "vertices"), part,
                              vertices == 1 ? "counts" : "count", what, apart),
-                 "positions are taken as they are where nothing is snapped (snap: 0)");
+                 "use snap: 0 to take positions as they are, if they were never 32-bit floats");
 }
 
 } // namespace facetmill

@@ -218,7 +218,7 @@ void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context
     context.warn("W-NO-VALUE",
                  fmt::format("render: {} has no value anywhere: there is none {}", quantity->name,
                              quantity->missing.empty() ? "without faces" : quantity->missing),
-                 "facetmill info tells whether the surface is closed and manifold");
+                 "use thicken to give a sheet walls; clean: {holes: minimal}, then orient, mend a solid");
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {

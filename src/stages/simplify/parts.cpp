@@ -88,8 +88,9 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
         fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
                     "than max_quadric_error ({})",
                     who, grouped(after), grouped(before), limit.text),
-        "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: off "
-        "simplifies to the target regardless of the error");
+        "use max_quadric_error: off to reach the target regardless of the error, or a larger one, such as 5% "
+        "of "
+        "part");
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {

@@ -8,7 +8,8 @@ const RegisterMessages write_messages{
     {"W-ORIGIN",
      "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
      "position it.",
-     "Drop skins and animations first if you need the new origin."},
+     "Use `merge` before `write`, which makes parts without skins and animations, if you need the new "
+     "origin."},
     {"W-ROUNDED",
      "Rounding or a limit of the format made a written file less sound than the scene. Or it moved points by "
      "more than a millionth of the diagonal.",
