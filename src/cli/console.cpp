@@ -171,7 +171,8 @@ bool Console::colour() const {
 
 void Console::diagnostic(const Diagnostic& d) const {
     if (quiet && d.severity == Severity::note) return;
-    if (d.where.known() && d.where.source->name == command_line_name && !d.hint.empty()) {
+    const bool is_typed = pipe || (d.where.known() && d.where.source->name == command_line_name);
+    if (is_typed && !d.hint.empty()) {
         Diagnostic as_typed = d;
         as_typed.hint = in_pipe_syntax(d.hint);
         if (as_typed.hint != d.hint) return diagnostic(as_typed);

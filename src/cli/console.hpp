@@ -34,6 +34,7 @@ class Console {
     bool quiet = false;   ///< only warnings and errors
     bool verbose = false; ///< also resolved values and every stage
     bool json = false;    ///< one JSON object per line
+    bool pipe = false;    ///< hints show options as pipe takes them
 
     /// Whether standard error is a terminal that supports colours; respects NO_COLOR and TERM=dumb.
     bool colour() const;

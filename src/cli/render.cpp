@@ -148,12 +148,13 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
     }
     const auto own = take_own(arguments, words);
     if (!own.empty()) parse_own(arguments, own);
-    if (words.empty() || words.front().starts_with("--") || options.output.empty())
-        throw Error(ErrorKind::usage, "E-ARGUMENT",
-                    words.empty() || words.front().starts_with("--")
-                        ? "render needs a mesh file before its options"
-                        : "render needs -o FILE.png",
-                    "for example facetmill render part.stl -o part.png", invocation.line.mark(0));
+    const bool has_mesh = !words.empty() && !words.front().starts_with("--");
+    if (!has_mesh || options.output.empty())
+        throw Error(
+            ErrorKind::usage, "E-ARGUMENT",
+            has_mesh ? "render needs -o FILE.png" : "render needs a mesh file before its options",
+            fmt::format("facetmill render {} -o part.png", has_mesh ? for_shell(words.front()) : "part.stl"),
+            invocation.line.mark(0));
     const CommandLine line(as_one_liner(options, words));
     Problems problems;
     auto settings = plan_settings(options.run, line, problems);

@@ -5,6 +5,7 @@
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
+#include "io/flatten.hpp"
 #include "io/not_finite.hpp"
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
@@ -121,7 +122,7 @@ void warn_of_size(const Part& part, ReadLog& log) {
                      "range of numbers (null or 0), and stages may lose precision",
                      part.name, length),
          {},
-         "transform: {scale: ...} brings it near 1",
+         hint_for_size(size),
          false});
 }
 

@@ -14,6 +14,15 @@
 
 namespace facetmill::io {
 
+std::string hint_for_size(double size) {
+    const std::string digits = fmt::format("{:.0e}", size); // "2e-120"
+    const bool is_large = digits.find("e-") == digits.npos;
+    const std::size_t sign = digits.find('e');
+    const std::string power = sign == digits.npos ? "150" : digits.substr(sign + 2);
+    return fmt::format("bring the scene near 1 in size: transform: {{scale: 1e{}{}}}", is_large ? "-" : "",
+                       power);
+}
+
 void require_floats(const Mesh& mesh, const std::string& what) {
     constexpr double least = 1.1754943508222875e-38,
                      most = 3.4028234663852886e38; // the range of normal float32 numbers
@@ -24,7 +33,7 @@ void require_floats(const Mesh& mesh, const std::string& what) {
     if (farthest == 0 || (farthest >= least && farthest <= most)) return;
     throw Error(ErrorKind::stage, "E-RANGE",
                 fmt::format("{} has positions that float32 cannot hold, up to {}", what, farthest),
-                "bring the scene near 1 in size first: transform: {scale: ...}");
+                hint_for_size(farthest));
 }
 
 WorldMesh::WorldMesh(const Part& part) {

@@ -9,6 +9,9 @@
 
 namespace facetmill::io {
 
+/// A hint for a scene of this size that is too large or too small for numbers: the scale to type.
+[[nodiscard]] std::string hint_for_size(double size);
+
 /// The part's mesh in world space; copied only if the transform is not the identity.
 class WorldMesh {
   public:

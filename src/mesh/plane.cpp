@@ -128,7 +128,7 @@ int axis_of(const Plane& plane) {
 void check_plane(const Plane& plane) {
     if (plane.normal == Vec3{} || !is_finite(plane.normal))
         throw Error(ErrorKind::usage, "E-PLANE", "the plane's normal must be finite and not zero",
-                    "for example normal: [0, 0, 1]");
+                    "give a direction: plane: {normal: [0, 0, 1]}");
     if (!is_finite(plane.through) || !std::isfinite(plane.offset))
         throw Error(ErrorKind::usage, "E-PLANE", "the plane's point and offset must be finite numbers");
 }

@@ -25,12 +25,12 @@ const RegisterMessages stage_messages{
     {"W-POINTS",
      "A stage that works on faces leaves point clouds unchanged. A point cloud is a part without faces and "
      "lines.",
-     "Exclude them with the common key `only`. `crop`, `clip`, `tile`, `transform` and `merge` work on "
-     "points."},
+     "Leave clouds out with the common key `only`, as in `only: \"!points\"`. `crop`, `clip`, `tile`, "
+     "`transform` and `merge` work on points."},
     {"W-SNAPPED",
-     "`clip` or `crop` treats vertices near the plane or the outline as on it. The part is far from the "
-     "origin, where neighbouring 32-bit floats are far apart, for example half a metre in UTM.",
-     "Use `snap: 0` to keep positions exact, if they were never 32-bit floats."},
+     "`clip` or `crop` treats vertices near the plane or the outline as on it. The part is so far from the "
+     "origin that neighbouring 32-bit floats are far apart, half a metre in UTM.",
+     "Use `snap: 0` to take positions as they are, if they were never 32-bit floats."},
     {"W-SURFACE-LOST",
      "A stage removed all faces of a part, or more of its area than expected. The limit is a tenth, or half "
      "for stages that change the shape: `relax`, `split`, `simplify`, and `clean` with `self_intersections: "

@@ -93,6 +93,7 @@ class TileMaker {
             box.add(transform_.point({(corner & 1 ? own.max : own.min).x, (corner & 2 ? own.max : own.min).y,
                                       (corner & 4 ? own.max : own.min).z}));
         frame_ = io::usual_frame(box, settings_);
+        if (auto warning = io::warning_of_place(frame_)) warnings_.emplace(warning->message, *warning);
         const std::size_t n = partition_.tree().leaves.size();
         for (bool changed = true; changed && frame_.step > frame_.finest;) {
             changed = false;

@@ -466,7 +466,8 @@ void warn_of_losses(Patch& patch) {
             patch.warn("W-MERGED",
                        fmt::format("of '{}' only the meshes and materials are written, without its {}",
                                    patch.scene.documents[d]->name, fmt::join(lost, ", ")),
-                       "write the parts of each file separately to keep them");
+                       fmt::format("load '{}' by itself, and write it to a file of its own to keep them",
+                                   patch.scene.documents[d]->name));
     }
 }
 

@@ -23,7 +23,8 @@ const RegisterMessages gltf_messages{
      "Export the input again.", ErrorKind::malformed},
     {"E-NODES", "A glTF node is its own ancestor.", "Export the file again.", ErrorKind::malformed},
     {"E-VERSION", "The version of a glTF or GLB file is not 2.",
-     "Export it as glTF 2.0, or convert it with gltf-pipeline.", ErrorKind::malformed},
+     "Export it as glTF 2.0, or convert it: `npx gltf-pipeline -i old.gltf -o new.gltf`.",
+     ErrorKind::malformed},
     {"W-EXTENSION",
      "A glTF extension is dropped, because its data has changed or facetmill does not support it.",
      "Ignore this warning if you do not need the extension that the message names."},
@@ -66,7 +67,7 @@ const RegisterMessages gltf_messages{
      "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn instead of the "
      "texture."},
     {"W-TRANSFORM", "A glTF node cannot be moved like its part, or moves separately from its animation.",
-     "Use `transform: {bake: true}` to move the vertices instead."},
+     "Use `merge` before the stage, which makes parts without animation."},
 };
 
 } // namespace facetmill

@@ -88,6 +88,7 @@ class TilesetWriter {
         if (mesh.face_count() == 0)
             throw Error(ErrorKind::stage, "E-EMPTY", "a tileset needs at least one face");
         const TilesetFrame frame = tileset_frame(mesh.positions, settings_);
+        if (auto warning = warning_of_place(frame)) written_.warnings.push_back(std::move(*warning));
         put_into_frame(mesh.positions, frame);
         steps.next();
         std::vector<PyramidTile> pyramid = make_pyramid(mesh, {settings_.tiles.faces, frame.step});

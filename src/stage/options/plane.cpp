@@ -201,7 +201,7 @@ std::optional<Value> length_in_plane(const Value& value) {
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems) {
     if (!plane.normal && !plane.coefficients) {
         problems.add(where, "E-PLANE", "a plane needs a normal or coefficients",
-                     "for example normal: [0, 0, 1]");
+                     "give a direction: plane: {normal: [0, 0, 1]}");
         return;
     }
     const auto zero = [](double x) { return x == 0; };
@@ -209,7 +209,7 @@ void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problem
             ? *plane.normal == Vec3{}
             : std::all_of(plane.coefficients->abcd.begin(), plane.coefficients->abcd.begin() + 3, zero))
         problems.add(where, "E-PLANE", "the plane's normal is zero, so it has no direction",
-                     "for example normal: [0, 0, 1]");
+                     "give a direction: plane: {normal: [0, 0, 1]}");
 }
 
 Plane resolve_plane(const PlaneOption& option, const Scene& scene, Context& context, std::string_view name,

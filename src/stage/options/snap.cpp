@@ -27,7 +27,7 @@ void warn_of_snapping(const std::string& part, std::size_t vertices, double apar
                              "are that far apart at this distance from the origin",
                              counted(vertices, "vertex", "vertices"), part,
                              vertices == 1 ? "counts" : "count", what, apart),
-                 "use snap: 0 to keep positions exact");
+                 "use snap: 0 to take positions as they are, if they were never 32-bit floats");
 }
 
 } // namespace facetmill

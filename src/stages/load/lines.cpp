@@ -55,7 +55,7 @@ std::string name_of(const Lines& lines, const Scene& scene) {
 void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickness, int sides,
                Context& context) {
     if (all.empty()) {
-        context.warn("W-LINES", "'lines' is given, but the file has no lines");
+        context.warn("W-LINES", "'lines' is given, but the file has no lines", "leave lines out");
         return;
     }
     const double diameter = thickness_of(thickness, scene, all, context);

@@ -140,8 +140,8 @@ std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
         return corners;
     }
     throw Error(ErrorKind::usage, "E-FACE",
-                fmt::format("face {} does not exist; the last face is {}", number, number - left - 1),
-                "faces are numbered from 0");
+                fmt::format("there is no face {}; the last one is {}", number, number - left - 1),
+                fmt::format("give a number from 0 to {}", number - left - 1));
 }
 
 ProbeReport answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions& o, const Questions& q,

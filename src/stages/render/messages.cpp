@@ -17,8 +17,8 @@ const RegisterMessages render_messages{
     {"W-NO-VALUE",
      "The quantity that `render` measured has no value at any face or vertex. For example, the walls of an "
      "open sheet have no thickness.",
-     "Run `facetmill info` to see whether the surface is closed and manifold. Use `clean` and `orient` to "
-     "repair it."},
+     "Give a sheet walls with `thicken: 1%`, or close a solid with `clean: {holes: minimal}` and turn it "
+     "outward with `orient`."},
 };
 
 } // namespace facetmill

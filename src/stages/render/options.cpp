@@ -211,7 +211,7 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
                      "for example render: view.png");
     if (o.from && !(largest_component(*o.from) > 0))
         problems.add(mark_at(given, "from"), "E-DIRECTION", "render: 'from' needs a direction, found 0 0 0",
-                     "for example from: [1, -2, 1]");
+                     "give a direction: from: [1, -2, 1]");
     for (const auto& view : o.views)
         if (view != turntable && !viewpoint_named(view)) {
             std::vector<std::string> names{turntable};

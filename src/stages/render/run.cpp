@@ -219,14 +219,14 @@ void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context
     context.warn("W-NO-VALUE",
                  fmt::format("render: {} has no value anywhere: it has none {}", quantity->name,
                              quantity->missing.empty() ? "without faces" : quantity->missing),
-                 "facetmill info shows whether the surface is closed and manifold");
+                 "use thicken to give a sheet walls; clean: {holes: minimal}, then orient, mend a solid");
 }
 
 void warn_of_nothing(const Scene& scene, Context& context) {
     const auto drawn = [](const Part& part) { return part.mesh.vertex_count() > 0; };
     if (std::none_of(scene.parts.begin(), scene.parts.end(), drawn))
         context.warn("W-BLANK", "render: the scene has nothing to draw, so the picture is blank",
-                     "the common key when: {vertices: {min: 1}} skips the picture");
+                     "use the common key when: {vertices: {min: 1}} to skip the picture");
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {

@@ -3,9 +3,11 @@
 namespace facetmill {
 
 const RegisterMessages section_messages{
-    {"W-OPEN-SECTION", "A section has open contours because the mesh is open where the plane cuts it.",
-     "Close holes with `clean`. The section of a surface without an inside, such as a terrain, consists of "
-     "open lines without area."},
+    {"W-OPEN-SECTION",
+     "A section has open contours, because the mesh is open where the plane cuts it. Or closed contours of "
+     "an open mesh run clockwise, such as those around the pits of a terrain.",
+     "Take the lines alone of a terrain or a sheet, which has no inside and no area, or make it a solid with "
+     "`thicken`. Close the holes of a solid with `clean: {holes: minimal}`."},
     {"W-SECTION-CROSSES",
      "Contours of a section intersect themselves. Every region that they wind around, in either direction, "
      "counts as inside.",

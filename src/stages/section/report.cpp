@@ -48,28 +48,38 @@ void add_volume(SectionReport& report, double spacing, std::optional<double> vol
     if (volume && *volume != 0) report.ratio = *report.area_times_spacing / *volume;
 }
 
-void warn(const SectionReport& report, Context& context) {
+constexpr const char* hint_for_open = "take the lines alone of a terrain or a sheet, which has no inside, or "
+                                      "make it a solid with thicken; close the "
+                                      "holes of a solid with clean: {holes: minimal}";
+
+/// In an open surface, a clockwise outline may be a pit of a terrain.
+void warn_of_clockwise(const SectionReport& report, bool closed, Context& context) {
+    const bool one = report.inside_out == 1;
+    const std::string outlines = counted(report.inside_out, "outline");
+    const char* runs =
+        one ? "runs clockwise, so its area is negative" : "run clockwise, so their areas are negative";
+    if (closed)
+        context.warn("W-INSIDE-OUT",
+                     fmt::format("{} {}: the mesh is inside out where the plane cuts it", outlines, runs),
+                     "use orient first");
+    else if (report.open == 0)
+        context.warn("W-OPEN-SECTION",
+                     fmt::format("{} {}: the mesh is open, so the area may mean nothing", outlines, runs),
+                     hint_for_open);
+}
+
+void warn(const SectionReport& report, const std::function<bool()>& is_closed, Context& context) {
     if (report.open > 0)
         context.warn("W-OPEN-SECTION",
                      fmt::format("{} of {} open: the mesh has a boundary where the plane cuts it",
                                  report.open, counted(report.contours, "contour")),
-                     report.open == report.contours
-                         ? "for a surface without an inside (a terrain, a sheet), these lines are the whole "
-                           "section and have no area; otherwise use clean to weld the mesh or fill its "
-                           "holes, or thicken to make a solid"
-                         : "use clean first, to weld the mesh or fill its holes");
+                     hint_for_open);
     if (!report.oriented)
         context.warn("W-UNORIENTED",
                      "neighbouring faces are inconsistent, so nesting decided which contours are outlines "
                      "and which are holes",
                      "use orient first");
-    if (report.inside_out > 0)
-        context.warn("W-INSIDE-OUT",
-                     fmt::format("{} {}: the mesh is inside out where the plane cuts it",
-                                 counted(report.inside_out, "outline"),
-                                 report.inside_out == 1 ? "runs clockwise, so its area is negative"
-                                                        : "run clockwise, so their areas are negative"),
-                     "use orient first");
+    if (report.inside_out > 0) warn_of_clockwise(report, report.open == 0 && is_closed(), context);
     const auto crossed = report.kinds[static_cast<std::size_t>(polygon::Kind::self_intersecting)];
     if (crossed > 0)
         context.warn("W-SECTION-CROSSES",
@@ -178,7 +188,8 @@ void declare_section_report(DeclareFields<SectionReport>& d) {
 }
 
 SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
-                        std::optional<double> volume, Context& context) {
+                        std::optional<double> volume, const std::function<bool()>& is_closed,
+                        Context& context) {
     SectionReport report;
     std::size_t listed = 0;
     for (const auto& sheet : drawing->sheets) {
@@ -189,7 +200,7 @@ SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spaci
     }
     report.drawing = std::move(drawing);
     if (spacing > 0) add_volume(report, spacing, volume);
-    warn(report, context);
+    warn(report, is_closed, context);
     return report;
 }
 

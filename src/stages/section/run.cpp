@@ -121,7 +121,8 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
         std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
     std::optional<double> volume;
     if (stack.spacing > 0) volume = volume_of(scene, context);
-    report = report_of(drawing, stack.spacing, volume, context);
+    report = report_of(
+        drawing, stack.spacing, volume, [&] { return volume || volume_of(scene, context); }, context);
     write_drawings(o, *drawing, context);
     return scene;
 }
@@ -146,7 +147,10 @@ void SectionStage::on_cells(CellFlow& flow, Context& context) const {
         std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
     std::optional<double> volume;
     if (stack.spacing > 0) volume = cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
-    const SectionReport report = report_of(drawing, stack.spacing, volume, context);
+    const auto is_closed = [&] {
+        return volume || cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
+    };
+    const SectionReport report = report_of(drawing, stack.spacing, volume, is_closed, context);
     context.report(*info->result, &report);
     write_drawings(o, *drawing, context);
 }

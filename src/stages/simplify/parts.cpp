@@ -115,12 +115,14 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
     const std::string who = limited.size() == 1
                                 ? first + " stopped at"
                                 : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
-    context.warn("W-SIMPLIFY-LIMIT",
-                 fmt::format("{} {} of {} triangles, above the target: fewer triangles would move the "
-                             "surface by more than max_quadric_error ({})",
-                             who, grouped(after), grouped(before), limit.text),
-                 "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: "
-                 "off simplifies to the target regardless of the error");
+    context.warn(
+        "W-SIMPLIFY-LIMIT",
+        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
+                    "than max_quadric_error ({})",
+                    who, grouped(after), grouped(before), limit.text),
+        "use max_quadric_error: off to reach the target regardless of the error, or a larger one, such as 5% "
+        "of "
+        "part");
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {

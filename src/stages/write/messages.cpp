@@ -6,9 +6,10 @@ const RegisterMessages write_messages{
     {"E-UP", "The scene has no up axis, so it cannot be rotated.",
      "Give the up axis when loading: `load: {up: z}`.", ErrorKind::stage},
     {"W-ORIGIN",
-     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does not only "
-     "set a position.",
-     "If you need the new origin, first remove skins and animations."},
+     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
+     "position it.",
+     "Use `merge` before `write`, which makes parts without skins and animations, if you need the new "
+     "origin."},
     {"W-ROUNDED",
      "Rounding or a limit of the format gave a written file more defects than the scene. Or it moved points "
      "by more than a millionth of the diagonal.",

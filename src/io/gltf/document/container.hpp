@@ -12,7 +12,8 @@
 namespace facetmill::io::gltf {
 
 /// The hint for glTF 1.0 files.
-inline constexpr const char* hint_for_version_1 = "gltf-pipeline writes glTF 1.0 as 2.0";
+inline constexpr const char* hint_for_version_1 =
+    "convert it to glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf";
 
 /// The message for a member that no check has covered.
 inline constexpr const char* wrong_type = "a member has another type than glTF gives it";
