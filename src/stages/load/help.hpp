@@ -11,8 +11,8 @@ a .gz or .zst file is decompressed. Each mesh, solid or object in a file becomes
 file or after the file; names are made unique. The scene takes its unit and up axis from the first
 file that has them, and later files are converted to them. Comments in the first lines of OBJ and OFF (`# unit: mm`,
 `# up: z`) and in the headers of PLY and binary STL state them. Lines (l of OBJ, edges of PLY, line primitives of
-glTF) are parts of their own, which stages that work on faces leave as they are; lines beside triangles
-in one glTF mesh get a mesh and a node of their own. The option `lines` gives lines a thickness instead: consecutive
+glTF) are parts of their own, which stages that work on faces leave as they are; lines and points beside triangles
+in one glTF mesh get meshes and nodes of their own. The option `lines` gives lines a thickness instead: consecutive
 lines become one closed tube with mitred corners, which ends where a line ends or where more than two
 lines meet. Broken meshes
 are loaded as they are; a malformed file is refused, and the error names the line or byte at fault.

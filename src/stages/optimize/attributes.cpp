@@ -91,7 +91,7 @@ std::vector<std::string> drop_unused_attributes(
     for (Primitive& p : mesh.primitives)
         if (!std::all_of(p.attributes.begin(), p.attributes.end(), gone)) // an empty list would mean all
             std::erase_if(p.attributes, gone);
-    if (merge_equal_wedges(mesh) > 0) drop_unused(mesh);
+    merge_and_drop_wedges(mesh);
     return dropped;
 }
 

@@ -10,11 +10,6 @@ namespace facetmill::io::gltf {
 /// The two ends of each line of a primitive of that mode; an incomplete last pair of a list is ignored.
 [[nodiscard]] std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode);
 
-/// If a mesh has lines and triangles, moves the lines to a separate mesh. Each node of the mesh gets a child
-/// with it, and with the node's skin, morph weights and instances, so that both become parts. Returns true if
-/// there were such lines. Throws malformed.
-bool part_lines(Json& document);
-
 /// The lines in each node's mesh that also has triangles, in world space, named after the node, or else the
 /// mesh. Materials are the document's. The document keeps the lines unchanged. Throws malformed, and limit
 /// beyond max_vertices points.
