@@ -201,6 +201,7 @@ const std::vector<Capability>& capabilities() {
         {"transforms", &Capabilities::transforms},
         {"skins", &Capabilities::skins},
         {"points", &Capabilities::points},
+        {"points_and_faces", &Capabilities::points_and_faces},
         {"lines", &Capabilities::lines},
         {"documents", &Capabilities::documents},
         {"text", &Capabilities::text},

@@ -58,7 +58,7 @@ TEST_CASE("a document without meshes is written with its tracks, and optimize dr
         test::Bench b;
         b.scene = clip();
         CHECK(b.scene.parts.empty());
-        b.run("optimize", Value::map());
+        b.run("optimize", Value::map({}));
         const Json json = written_after(b, given);
         CHECK(json["nodes"][0]["name"] == "hips");
         CHECK(json["nodes"][1]["extras"]["side"] == "left");

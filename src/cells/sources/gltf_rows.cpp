@@ -70,12 +70,12 @@ void each_primitive(const Json& json, Take&& take) {
     }
 }
 
-bool any_lines(const Json& json) {
+bool any(const Json& json, gltf::Drawn kind) {
     for (const gltf::Placement& placement : gltf::placements(json, gltf::node_frames(json))) {
         const gltf::JsonCursor primitives =
             gltf::item(json, "meshes", static_cast<std::size_t>(placement.mesh)).at("primitives");
         for (std::size_t i = 0; i < primitives.size(); ++i)
-            if (gltf::makes_lines(primitives.at(i))) return true;
+            if (gltf::kind_of(primitives.at(i)) == kind) return true;
     }
     return false;
 }
@@ -104,7 +104,8 @@ class GltfReader final : public RowReader {
                 if (primitive.find("material")) attributes.insert("materials");
             });
             dropped.assign(attributes.begin(), attributes.end());
-            if (any_lines(json_)) dropped.emplace_back("lines");
+            if (any(json_, gltf::Drawn::lines)) dropped.emplace_back("lines");
+            if (any(json_, gltf::Drawn::points)) dropped.emplace_back("points");
             for (auto& [path, buffer] : buffers_) {
                 buffer.sha256 = digest_of(buffer.input, *buffer.file);
                 require_as_opened({buffer});

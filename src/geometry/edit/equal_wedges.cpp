@@ -116,4 +116,10 @@ std::size_t merge_equal_wedges(Mesh& mesh) {
     return merged;
 }
 
+std::size_t merge_and_drop_wedges(Mesh& mesh) {
+    const std::size_t merged = merge_equal_wedges(mesh);
+    if (merged > 0 && (mesh.face_count() > 0 || mesh.line_count() > 0)) drop_unused(mesh);
+    return merged;
+}
+
 } // namespace facetmill

@@ -1,4 +1,5 @@
-// Reads and writes glTF. A Scene gets the document, its materials, and one part per node with triangles.
+// Reads a glTF file as a Scene (its document, its materials, and one part per node with a mesh), and
+// writes it.
 
 #include "base/fast_json.hpp"
 #include "base/hash.hpp"
@@ -12,9 +13,9 @@
 #include "io/gltf/document/shorten.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
+#include "io/gltf/read/kinds.hpp"
 #include "io/gltf/read/lines.hpp"
 #include "io/gltf/read/mesh.hpp"
-#include "io/gltf/read/points.hpp"
 #include "io/gltf/write/patch.hpp"
 #include "io/images/image_files.hpp"
 #include "parallel/memory.hpp"
@@ -116,13 +117,14 @@ void warn_of_instancing(const Placement& placement, ReadLog& log) {
          false});
 }
 
-/// Warns that nodes without triangles and lines do not become parts, if other nodes do.
-void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>& frames, ReadLog& log) {
+/// Warns that nodes with meshes without positions do not become parts, if other nodes do.
+void warn_of_nodes_without_positions(const Source& source, const std::vector<NodeFrame>& frames,
+                                     ReadLog& log) {
     std::size_t count = 0, first = 0;
     for (std::size_t n = 0; n < frames.size(); ++n) {
         if (frames[n].mesh < 0) continue;
         const JsonCursor mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
-        if (has_triangles(mesh) || is_of_lines(mesh)) continue;
+        if (kind_of_mesh(mesh) != Drawn::none) continue;
         if (count++ == 0) first = n;
     }
     if (count == 0) return;
@@ -131,7 +133,7 @@ void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>&
         {Severity::warning,
          "W-SKIPPED",
          fmt::format(
-             "nodes[{}]{} no triangles and no lines: kept in the document as written, which stages do not "
+             "nodes[{}]{} a mesh without positions: kept in the document as written, which stages do not "
              "move and other formats do not get",
              first, more),
          {},
@@ -172,10 +174,9 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
          false});
 }
 
-/// of_points: the document has points, which are read separately.
 void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
-                const ReadSettings& settings, bool of_points, ReadLog& log) {
-    std::map<int, std::size_t> first_part; // the first part of each mesh; instances copy the part
+                const ReadSettings& settings, ReadLog& log) {
+    std::map<int, std::size_t> first_part; // by mesh: instances copy it
     std::size_t vertices = 0;
     double bytes = 0; // the total size of copies, because a node needs few bytes of JSON
     auto all = placements(source.json(), frames);
@@ -191,8 +192,7 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
             part.mesh = scene.parts[known->second].mesh;
         } else {
             DecodedMesh decoded =
-                decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices,
-                            {.lines = settings.lines, .points = of_points});
+                decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices);
             part.mesh = std::move(decoded.mesh);
             if (settings.weld == Weld::off) unmerge(part.mesh);
             log.warnings.insert(log.warnings.end(), decoded.warnings.begin(), decoded.warnings.end());
@@ -211,22 +211,9 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
         scene.parts.push_back(std::move(part));
         steps.next();
     }
-    if (!all.empty() && !of_points) warn_of_nodes_of_points(source, frames, log);
+    if (!all.empty()) warn_of_nodes_without_positions(source, frames, log);
     warn_of_parts_not_shown(scene, source.json(), log);
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
-}
-
-/// True if nodes have points and no node has triangles.
-bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
-    bool points = false;
-    for (const NodeFrame& frame : frames) {
-        if (frame.mesh < 0) continue;
-        const JsonCursor mesh = item(document, "meshes", static_cast<std::size_t>(frame.mesh));
-        if (has_triangles(mesh)) return false;
-        const JsonCursor primitives = mesh.at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i) points |= makes_points(primitives.at(i));
-    }
-    return points;
 }
 
 /// Warns about a document with primitives if none of them was read.
@@ -245,68 +232,6 @@ void warn_without_parts(const Json& document, ReadLog& log) {
          {},
          "export it again, with the nodes that show them",
          false});
-}
-
-bool has_embedded_images(const Json& document) {
-    for (std::size_t i = 0; i < count_of(document, "images"); ++i)
-        if (document["images"][i].contains("bufferView")) return true;
-    return false;
-}
-
-/// True if points have morph targets, which are not read.
-bool points_have_targets(const Json& document) {
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
-        const JsonCursor primitives = item(document, "meshes", m).at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i)
-            if (makes_points(primitives.at(i)) && primitives.at(i).find("targets")) return true;
-    }
-    return false;
-}
-
-/// A document with only the materials and their textures. Warns about dropped animations, cameras and other
-/// contents.
-std::shared_ptr<const Document> materials_of(Json json, const Document& document, ReadLog& log) {
-    const bool targets = points_have_targets(json);
-    std::vector<std::string> lost = keep_materials_only(json);
-    if (targets) lost.emplace_back("morph targets");
-    if (!lost.empty())
-        log.warnings.push_back(
-            {Severity::warning,
-             "W-SKIPPED",
-             fmt::format("{} of a document of points cannot be kept: skipped", fmt::join(lost, ", ")),
-             {},
-             ""});
-    auto out = std::make_shared<Document>();
-    out->name = document.name;
-    out->files = document.files;
-    if (has_embedded_images(json))
-        out->buffers = document.buffers;
-    else
-        for (const char* list : {"accessors", "bufferViews", "buffers"}) json.erase(list);
-    out->json = to_string(json);
-    return out;
-}
-
-bool has_material(const Part& part) {
-    return std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(),
-                       [](const Primitive& p) { return p.material != none; });
-}
-
-/// Reads the parts of a document of points, and possibly lines. These parts belong to no document.
-void read_points(Scene& scene, Source& source, const std::vector<NodeFrame>& frames, const Document& document,
-                 std::size_t max_vertices, ReadLog& log) {
-    std::size_t left = max_vertices;
-    for (Part& part : scene.parts) {
-        part.document = part.node = part.source_mesh = -1;
-        part.skinned = false;
-        left -= std::min(left, part.mesh.vertex_count());
-    }
-    for (Part& part : decode_points(source, frames, left)) scene.parts.push_back(std::move(part));
-    auto materials = materials_of(source.json(), document, log);
-    if (std::any_of(scene.parts.begin(), scene.parts.end(), has_material))
-        scene.documents.push_back(std::move(materials));
-    else
-        scene.materials.clear();
 }
 
 Chunks chunks_of(const Input& input) {
@@ -337,7 +262,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         expand_instances(json, document->buffers, log);
         document->json = to_string(json);
     }
-    if (!settings.lines && part_lines(json)) document->json = to_string(json);
+    if (part_kinds(json, !settings.lines)) document->json = to_string(json);
 
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::m);
@@ -347,12 +272,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
-    const bool of_points = is_of_points(json, frames);
-    read_parts(scene, source, frames, settings, of_points, log);
-    if (of_points) {
-        read_points(scene, source, frames, *document, settings.max_vertices, log);
-        return scene;
-    }
+    read_parts(scene, source, frames, settings, log);
     if (scene.parts.empty()) warn_without_parts(json, log);
     scene.documents.push_back(std::move(document));
     return scene;
@@ -393,7 +313,7 @@ void peek(const Input& input, FileHeader& header) {
         Json json = parse_document(chunks_of(input).json, unread);
         const ScopedDestroy after(json);
         check_asset(json);
-        part_lines(json);
+        part_kinds(json, true);
         const std::vector<Placement> placed = placements(json, node_frames(json));
         for (const auto& placement : placed) header.parts.push_back(placement.name);
         if (!drawn_materials(json, placed).empty()) header.has_materials = [] { return true; };
@@ -563,6 +483,7 @@ Capabilities abilities(std::string companion) {
     return {.transforms = true,
             .skins = true,
             .points = true,
+            .points_and_faces = true,
             .lines = true,
             .documents = true,
             .mesh_manifold = true,

@@ -620,6 +620,7 @@ const RegisterCodec codec({
     .extensions = {"obj"},
     .can = {.polygons = true,
             .points = true,
+            .points_and_faces = true,
             .lines = true,
             .full_precision = true,
             .textures = true,

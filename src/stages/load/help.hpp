@@ -19,7 +19,7 @@ binary STL files in the header.
 
 Lines (l in OBJ, edges in PLY, line primitives in glTF) become separate parts.
 Stages that work on faces leave them unchanged.
-Lines next to triangles in one glTF mesh get their own mesh and node.
+Lines and points next to triangles in one glTF mesh get their own mesh and node.
 The option `lines` turns lines into tubes.
 Consecutive lines become one closed tube with mitred corners, which ends where a line ends or more
 than two lines meet.

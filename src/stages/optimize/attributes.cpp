@@ -118,7 +118,7 @@ std::vector<std::string> drop_unused_attributes(
         if (!std::all_of(p.attributes.begin(), p.attributes.end(),
                          gone)) // an empty list would mean all attributes
             std::erase_if(p.attributes, gone);
-    if (merge_equal_wedges(mesh) > 0) drop_unused(mesh);
+    merge_and_drop_wedges(mesh);
     return dropped;
 }
 

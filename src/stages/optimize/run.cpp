@@ -167,7 +167,7 @@ class Optimizing {
             const auto numbers = [](const Primitive& p) { return !p.json.empty(); };
             if (std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(), numbers)) continue;
             const std::size_t before = part.mesh.wedge_count();
-            if (merge_equal_wedges(part.mesh) > 0) drop_unused(part.mesh);
+            merge_and_drop_wedges(part.mesh);
             const std::size_t merged = before - part.mesh.wedge_count();
             part.changed |= merged > 0;
             report_.equal_vertices += merged;

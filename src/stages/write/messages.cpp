@@ -5,6 +5,9 @@ namespace facetmill {
 const RegisterMessages write_messages{
     {"E-UP", "The scene has no up axis, so it cannot be rotated.",
      "Give the up axis when loading: `load: {up: z}`.", ErrorKind::stage},
+    {"W-DRACO",
+     "A glTF file is written uncompressed: its Draco compresses faces only, and the scene has none.",
+     "Compress points and lines with `write: {meshopt: true}`."},
     {"W-ORIGIN",
      "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
      "position it.",

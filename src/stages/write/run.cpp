@@ -107,48 +107,73 @@ std::vector<std::string> formats_with(bool io::Capabilities::*what) {
     return names;
 }
 
-/// Whether the part is left out because the format cannot hold lines.
-bool is_left_out(const Part& part, const io::Codec& codec) {
-    return part.mesh.line_count() > 0 && !codec.can.lines;
+bool is_of_points(const Part& part) {
+    return part.mesh.vertex_count() > 0 && part.mesh.face_count() == 0 && part.mesh.line_count() == 0;
 }
 
-/// Warns of parts left out because they have lines. Throws a stage error (E-EMPTY) if no other part is left.
-void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, const io::Codec& codec,
-                Context& context) {
-    std::vector<std::string> names;
-    for (const Part& part : scene.parts)
-        if (is_left_out(part, codec) && context.selects(part, scene)) names.push_back(part.name);
+/// The kinds of parts that a written file does not get.
+struct LeftOut {
+    bool lines = false, points = false;
+
+    bool operator()(const Part& part) const {
+        return part.mesh.line_count() > 0 ? lines : points && is_of_points(part);
+    }
+};
+
+/// Points are left out only if there are faces; without faces, the format holds them or the stage fails.
+LeftOut left_out(const Scene& scene, const io::Codec& codec, const Context& context) {
+    const bool faces = std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+        return part.mesh.face_count() > 0 && context.selects(part, scene);
+    });
+    return {!codec.can.lines, faces && !codec.can.points_and_faces};
+}
+
+/// Warns of parts of one kind that are left out.
+void warn_of_left_out(const std::vector<std::string>& names, bool lines, const WriteOptions& o,
+                      const io::Codec& codec, Context& context) {
     if (names.empty()) return;
-    const std::string hint =
-        fmt::format("{} can store lines", fmt::join(formats_with(&io::Capabilities::lines), ", "));
-    if (out.parts.empty())
+    const auto formats = formats_with(lines ? &io::Capabilities::lines : &io::Capabilities::points_and_faces);
+    context.warn(lines ? "W-LINES" : "W-SKIPPED",
+                 fmt::format("'{}': {} cannot hold {}, so {} {} left out: {}", o.path.text, codec.name,
+                             lines ? "lines" : "points beside faces", counted(names.size(), "part"),
+                             names.size() == 1 ? "is" : "are", fmt::join(names, ", ")),
+                 fmt::format("{} to {}", lines ? "lines go" : "both go", fmt::join(formats, ", ")));
+}
+
+/// Warns of parts left out because of their kind. Throws stage (E-EMPTY) if there are lines and no other
+/// part.
+void tell_left_out(const Scene& scene, const Scene& out, const LeftOut& goes, const WriteOptions& o,
+                   const io::Codec& codec, Context& context) {
+    std::vector<std::string> lines, points;
+    for (const Part& part : scene.parts)
+        if (goes(part) && context.selects(part, scene))
+            (part.mesh.line_count() > 0 ? lines : points).push_back(part.name);
+    if (!lines.empty() && out.parts.empty())
         throw Error(
             ErrorKind::stage, "E-EMPTY",
             fmt::format("there is nothing to write to '{}': the scene has lines and no faces", o.path.text),
-            hint, context.where());
-    context.warn("W-LINES",
-                 fmt::format("'{}': {} cannot store lines, so {} {} skipped: {}", o.path.text, codec.name,
-                             counted(names.size(), "part"), names.size() == 1 ? "is" : "are",
-                             fmt::join(names, ", ")),
-                 hint);
+            fmt::format("lines go to {}", fmt::join(formats_with(&io::Capabilities::lines), ", ")),
+            context.where());
+    warn_of_left_out(lines, true, o, codec, context);
+    warn_of_left_out(points, false, o, codec, context);
 }
 
-/// Throws a stage error (E-EMPTY) unless the format can store the scene's points or lines with these
-/// options.
-void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
+/// Throws stage (E-EMPTY) unless the format can store the scene's points or lines.
+void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
     const bool lines = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const Part& part) { return part.mesh.line_count() > 0; });
-    const bool always = codec.can.draco == io::Capabilities::Draco::always;
-    const bool compressed =
-        (o.draco && o.draco->on && !always) || (o.quantize && o.quantize->on) || (o.meshopt && o.meshopt->on);
-    if (any && codec.can.points && !compressed) return;
-    if (lines && codec.can.lines)
-        throw Error(ErrorKind::stage, "E-EMPTY",
-                    fmt::format("there is nothing to compress in '{}': the scene has lines and no faces",
-                                o.path.text),
-                    "write lines without draco, quantize and meshopt", context.where());
+    if ((any && codec.can.points) || (lines && codec.can.lines)) {
+        const bool only_triangles = codec.can.draco == io::Capabilities::Draco::on_request;
+        if (o.draco && o.draco->on && only_triangles)
+            context.warn("W-DRACO",
+                         fmt::format("'{}' is not compressed: in {}, Draco compresses faces only, and the "
+                                     "scene has none",
+                                     o.path.text, codec.name),
+                         codec.can.meshopt ? "meshopt: true compresses points and lines" : "");
+        return;
+    }
     if (io::is_without_meshes(scene))
         throw Error(ErrorKind::stage, "E-EMPTY",
                     fmt::format("there is nothing to write to '{}': the scene has no meshes, and {} holds "
@@ -158,35 +183,13 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
                                 fmt::join(formats_with(&io::Capabilities::documents), ", ")),
                     context.where());
     const std::vector<std::string> formats = formats_with(&io::Capabilities::points);
-    std::vector<std::string> compressing;
-    for (const io::Codec& other : io::codecs())
-        if (other.write && other.can.points && other.can.draco == io::Capabilities::Draco::always)
-            compressing.push_back(other.name);
-    throw Error(ErrorKind::stage, "E-EMPTY",
-                fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
-                            any ? "points and no faces" : "neither faces nor points"),
-                any ? fmt::format("{} can store points, but only {} can compress them",
-                                  fmt::join(formats, ", "), fmt::join(compressing, ", "))
-                    : "check the result of the stages before; the common key when: {vertices: {min: 1}} "
-                      "skips an empty write",
-                context.where());
-}
-
-/// Rounding depends on the bounds, so vertices that nothing draws must not widen them. Features that are
-/// numbered by vertex keep all vertices.
-void drop_unused_vertices(Scene& out, std::vector<Lent>& lent) {
-    const auto by_vertex = [](const Primitive& p) {
-        return p.json.find("EXT_mesh_features") != std::string::npos;
-    };
-    for (std::size_t k = 0; k < lent.size(); ++k) {
-        Part& part = out.parts[k];
-        const auto& primitives = part.mesh.primitives;
-        if (!has_unused_vertices(part.mesh) || std::any_of(primitives.begin(), primitives.end(), by_vertex))
-            continue;
-        if (!lent[k].mesh) lent[k].mesh = part.mesh;
-        drop_unused(part.mesh);
-        part.changed = true;
-    }
+    throw Error(
+        ErrorKind::stage, "E-EMPTY",
+        fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
+                    any ? "points and no faces" : "neither faces nor points"),
+        any ? fmt::format("points go to {}", fmt::join(formats, ", "))
+            : "check what the stages before kept; the common key when: {vertices: {min: 1}} skips a write",
+        context.where());
 }
 
 /// Logs the number of faces that are written as triangles, unless all faces are triangles.
@@ -244,12 +247,13 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     // Moves the parts into the written scene, so that no mesh is copied; they are moved back afterwards.
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
+    const LeftOut goes = left_out(scene, *codec, context);
+    const bool document = codec->can.documents && io::is_without_meshes(scene);
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
-        if (context.selects(scene.parts[i], scene) && !is_left_out(scene.parts[i], *codec))
+        if (context.selects(scene.parts[i], scene) && !goes(scene.parts[i]))
             lent.push_back({i, scene.parts[i].transform, scene.parts[i].changed});
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
-    tell_lines(scene, out, o, *codec, context);
-    const bool document = codec->can.documents && io::is_without_meshes(scene);
+    tell_left_out(scene, out, goes, o, *codec, context);
     if (out.face_count() == 0 && !document) check_points(out, o, *codec, context);
     ProgressSteps steps({1, 4, 5});
     say_of_triangles(out, o, *codec, context);

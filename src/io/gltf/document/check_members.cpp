@@ -318,7 +318,7 @@ class MemberCheck {
             }
             if (key == "extras") continue;
             for (const Member& row : rows)
-                if (key == row.key || *row.key == 0) member(at, row);
+                if (key == row.key || *row.key == 0) try_member(at, row);
         }
         samplers_ = samplers;
     }
@@ -335,6 +335,16 @@ class MemberCheck {
                 object(at, own);
             else if (has_place(name))
                 breaches_.add(at, "this extension does not belong here");
+        }
+    }
+
+    /// Without valid scenes, a document still has its parts.
+    void try_member(const JsonCursor& at, const Member& row) {
+        try {
+            member(at, row);
+        } catch (const Error& error) {
+            if (std::string_view(row.kind) != "scene" && std::string_view(row.key) != "scene") throw;
+            breaches_.add(error);
         }
     }
 

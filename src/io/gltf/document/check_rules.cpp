@@ -145,11 +145,14 @@ class RuleCheck {
             if (const auto children = item(document_, "nodes", n).find("children"))
                 for (const Json& c : children->json())
                     child[static_cast<std::size_t>(c.get<double>())] = true;
-        for (std::size_t s = 0; s < count_of(document_, "scenes"); ++s)
-            if (const auto roots = item(document_, "scenes", s).find("nodes"))
-                for (std::size_t i = 0; i < roots->size(); ++i)
-                    if (child[roots->at(i).natural()])
-                        breaches_.add(roots->at(i), "the node is the child of another");
+        for (std::size_t s = 0; s < count_of(document_, "scenes"); ++s) {
+            const auto roots = item(document_, "scenes", s).find("nodes");
+            if (!roots || !roots->json().is_array()) continue;
+            for (std::size_t i = 0; i < roots->size(); ++i)
+                if (const Json& n = roots->at(i).json();
+                    n.is_number_unsigned() && n < child.size() && child[n.get<std::size_t>()])
+                    breaches_.add(roots->at(i), "the node is the child of another");
+        }
     }
 
     void attribute(const JsonCursor& place, const std::string& name, bool target) {

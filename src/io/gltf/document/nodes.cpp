@@ -189,36 +189,26 @@ std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames) {
     return order;
 }
 
-bool makes_triangles(const JsonCursor& primitive) {
+Drawn kind_of(const JsonCursor& primitive) {
     const auto mode = primitive.natural_or("mode", 4);
     if (mode > 6) primitive.at("mode").fail(fmt::format("{} is not a mode", mode));
-    return mode >= 4 &&
-           primitive.at("attributes").find("POSITION"); // an extension may provide positions instead
+    if (!primitive.at("attributes").find("POSITION")) return Drawn::none; // an extension may provide them
+    return mode >= 4 ? Drawn::triangles : mode >= 1 ? Drawn::lines : Drawn::points;
 }
 
-bool has_triangles(const JsonCursor& mesh) {
+Drawn kind_of_mesh(const JsonCursor& mesh) {
+    Drawn kind = Drawn::none;
     const JsonCursor primitives = mesh.at("primitives");
-    for (std::size_t i = 0; i < primitives.size(); ++i)
-        if (makes_triangles(primitives.at(i))) return true;
-    return false;
+    for (std::size_t i = 0; i < primitives.size() && kind != Drawn::triangles; ++i)
+        kind = std::max(kind, kind_of(primitives.at(i)));
+    return kind;
 }
 
-bool makes_lines(const JsonCursor& primitive) {
-    const auto mode = primitive.natural_or("mode", 4);
-    return mode >= 1 && mode <= 3 && primitive.at("attributes").find("POSITION");
-}
+bool makes_triangles(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::triangles; }
 
-bool makes_points(const JsonCursor& primitive) {
-    return primitive.natural_or("mode", 4) == 0 && primitive.at("attributes").find("POSITION");
-}
+bool has_triangles(const JsonCursor& mesh) { return kind_of_mesh(mesh) == Drawn::triangles; }
 
-bool is_of_lines(const JsonCursor& mesh) {
-    if (has_triangles(mesh)) return false;
-    const JsonCursor primitives = mesh.at("primitives");
-    for (std::size_t i = 0; i < primitives.size(); ++i)
-        if (makes_lines(primitives.at(i))) return true;
-    return false;
-}
+bool makes_lines(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::lines; }
 
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
     std::vector<Placement> all;
@@ -226,7 +216,7 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
     std::vector<char> read(count_of(document, "meshes"));
     for (std::size_t m = 0; m < read.size(); ++m) {
         const JsonCursor mesh = item(document, "meshes", m);
-        read[m] = has_triangles(mesh) || is_of_lines(mesh);
+        read[m] = kind_of_mesh(mesh) != Drawn::none;
     }
     const auto place = [&](int node, int mesh, bool skinned, const Transform& world) {
         if (!read[static_cast<std::size_t>(mesh)]) return;

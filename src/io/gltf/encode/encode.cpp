@@ -320,6 +320,8 @@ void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& co
             ends[mesh.primitive_of_line(l)].push_back(mesh.lines[end]);
     Numbering numbers(mesh.wedge_count());
     for (Index p = 0; p < ends.size(); ++p) {
+    const Json targets = add_targets(builder, mesh, columns, table.wedges);
+    if (!targets.is_null()) primitive["targets"] = targets;
         if (ends[p].empty()) continue;
         Table table{p, {}, std::move(ends[p])};
         numbers.collect(table, table.indices);
@@ -344,8 +346,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     Mesh cut;
     if (!given.all_triangles()) cut = triangles_of(given);
     const Mesh& mesh = given.all_triangles() ? given : cut;
-    if (mesh.vertex_count() == 0 || (mesh.face_count() == 0 && mesh.lines.empty() && !settings.points))
-        return out;
+    if (mesh.vertex_count() == 0) return out;
     require_floats(mesh, fmt::format("part '{}'", settings.name));
     const auto columns = columns_of(mesh, settings.columns, written.changes);
     for (const auto& column : columns)

@@ -21,7 +21,6 @@ struct EncodeSettings {
     bool keep_exact = false;                   ///< also stores double positions in Builder::exact_positions
     bool whole_positions = false;              ///< see WriteSettings::whole_positions
     bool keep_features = true;                 ///< the document has the metadata that primitives refer to
-    bool points = false;                       ///< writes meshes without faces as points
     ColumnSettings columns;
     std::string name; ///< the part's name, for messages
     /// The document's index of a scene material; -1: none.
@@ -38,7 +37,7 @@ struct EncodedMesh {
     VertexCacheUse cache;          ///< not set with Draco
 };
 
-/// Triangulates polygons. Positions become float32 with min and max; indices become uint16 if they fit, else
+/// Triangulates polygons. A mesh without faces and lines is written as points. Positions become float32 with min and max; indices become uint16 if they fit, else
 /// uint32. Degenerate faces are kept, but Draco drops them unless it must keep them (W-FACES). Unused wedges
 /// are dropped. Throws a stage error (E-RANGE) when a position does not fit float32.
 [[nodiscard]] EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings,
