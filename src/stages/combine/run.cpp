@@ -212,7 +212,8 @@ void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::u
     }
     if (idle == 0) return;
     if (idle > 5) names += fmt::format(" and {} more", idle - 5);
-    context.warn("W-COMBINE-IDLE", fmt::format("combine: {} {} nothing", names, idle == 1 ? "takes" : "take"),
+    context.warn("W-COMBINE-IDLE",
+                 fmt::format("combine: {} {} nothing", names, idle == 1 ? "subtracts" : "subtract"),
                  "the part may be outside all others, or inside another part of 'with'; facetmill info "
                  "prints the bounds");
 }
