@@ -48,9 +48,8 @@ TEST_CASE("a file or a ready pipeline in the place of the command is answered wi
                   .find("hint: use facetmill pipe load IN ! write OUT to convert a mesh file") !=
               std::string::npos);
     }
-    CHECK(
-        message({"repair", "a.stl"}).find("hint: a pipeline runs by facetmill run repair -D input=FILE\n") !=
-        std::string::npos);
+    CHECK(message({"repair", "a.stl"})
+              .find("hint: use facetmill run repair -D input=FILE to run a pipeline\n") != std::string::npos);
 }
 
 TEST_CASE("an unknown option is answered with the nearest one", "[cli]") {

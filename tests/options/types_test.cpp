@@ -58,7 +58,7 @@ TEST_CASE("a number with a unit, and the name of a param in signs of other langu
     CHECK(complaint<double>("10%") == "E-TYPE expected a finite number, found '10%' (write 0.1)");
     CHECK(complaint<double>("2 kg") == "E-TYPE expected a finite number, found '2 kg'");
     for (const char* text : {"$keep", "{keep}", "{{ keep }}"})
-        CHECK(complaint<Ratio>(text).find("(the value of a param is written ${keep})") != std::string::npos);
+        CHECK(complaint<Ratio>(text).find("(write the value of a param as ${keep})") != std::string::npos);
     CHECK(complaint<Ratio>("{a, b}").find("param") == std::string::npos);
 }
 

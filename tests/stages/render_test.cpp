@@ -281,7 +281,7 @@ TEST_CASE("a stray face that makes the rest small is told, and what shows it", "
     REQUIRE(run.warnings() == std::vector<std::string>{"W-FAR"});
     CHECK(run.record.warnings[0].message.ends_with(
         " pixels wide in the picture, because something lies far off"));
-    CHECK(run.record.warnings[0].hint.starts_with("render: {path: near.png, at: ["));
+    CHECK(run.record.warnings[0].hint.starts_with("use render: {path: near.png, at: ["));
     CHECK(
         run_stage("render", drawing_options(folder, "zoom: 10000, at: [0, 0, 0]"), scene).warnings().empty());
     CHECK(run_stage("render", drawing_options(folder, "view: front"), scene_of(shapes::icosphere(3)))

@@ -96,7 +96,7 @@ TEST_CASE("an open mesh is said", "[stages]") {
     const auto run = run_stage("section", "x=0.5", scene_of(shapes::grid(2, 2)));
     REQUIRE(run.record.warnings.size() == 1);
     CHECK(run.record.warnings[0].id == "W-OPEN-SECTION");
-    CHECK(run.record.warnings[0].hint.starts_with("of a surface without an inside (a terrain, a sheet)"));
+    CHECK(run.record.warnings[0].hint.starts_with("for a surface without an inside (a terrain, a sheet)"));
     // Next to closed contours, an open contour means a hole.
     Scene two = scene_of(shapes::cube());
     append(two.parts[0].mesh, shapes::grid(2, 2));
@@ -123,7 +123,7 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
         return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{path: a.pdf}") == "usage [E-DRAWING] test.yaml:1:8: section: 'a.pdf' is not a supported "
-                                      "drawing format | use .svg, .dxf and .json");
+                                      "drawing format | use .svg, .dxf or .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
           "usage [E-PLANE] test.yaml:1:1: the plane's normal is zero, so it has no direction | for example "
           "normal: [0, 0, 1]");

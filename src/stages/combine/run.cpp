@@ -215,10 +215,9 @@ void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::u
     if (idle == 0) return;
     if (idle > 5) names += fmt::format(" and {} more", idle - 5);
     context.warn("W-COMBINE-IDLE",
-                 fmt::format("combine: {} {} nothing away", names, idle == 1 ? "takes" : "take"),
+                 fmt::format("combine: {} {} nothing", names, idle == 1 ? "subtracts" : "subtract"),
                  "move it so that it meets the others (transform: {only: ..., translate: ...}), or leave it "
-                 "out of with; facetmill "
-                 "info prints the bounds");
+                 "out of with; facetmill info prints the bounds");
 }
 
 /// Combines a part with others: meshes before `second` belong to the first operand. The first part gets the
