@@ -131,7 +131,7 @@ struct PipelineSource {
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// Checks all files of the plan as in check_collisions, with the files of a foreach over parts, once the
 /// names of the parts are known.
-void check_new_files(const Plan& plan, const std::vector<Arm>& arms, Problems& problems);
+void check_new_files(const Plan& plan, const Step& step, const std::vector<Arm>& arms, Problems& problems);
 /// An E-FILE for every missing input, at its mark; exit code 3. run_plan calls it first.
 [[nodiscard]] std::vector<Diagnostic> missing_inputs(const Plan& plan);
 

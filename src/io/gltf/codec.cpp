@@ -7,6 +7,7 @@
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/contents/largest_pose.hpp"
 #include "io/gltf/document/check.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/gltf/document/nodes.hpp"
@@ -447,6 +448,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     const auto worlds =
         shortens ? largest_worlds(builder.current(), node_frames(builder.json())) : std::vector<Transform>();
     Bytes buffer = builder.finish(written.warnings);
+    drop_nulls(builder.json());
     // Without meshes, names are what animations and programs find nodes by.
     if (!settings.names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.

@@ -3,6 +3,7 @@
 #include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/gltf.hpp"
+#include "mesh/drawn_box.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/fit.hpp"
@@ -190,6 +191,23 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
         any ? fmt::format("points go to {}", fmt::join(formats, ", "))
             : "check what the stages before kept; the common key when: {vertices: {min: 1}} skips a write",
         context.where());
+}
+
+/// Rounding depends on the bounds, so vertices that nothing draws must not widen them. Features that are
+/// numbered by vertex keep all vertices.
+void drop_unused_vertices(Scene& out, std::vector<Lent>& lent) {
+    const auto by_vertex = [](const Primitive& p) {
+        return p.json.find("EXT_mesh_features") != std::string::npos;
+    };
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Part& part = out.parts[k];
+        const auto& primitives = part.mesh.primitives;
+        if (!has_unused_vertices(part.mesh) || std::any_of(primitives.begin(), primitives.end(), by_vertex))
+            continue;
+        if (!lent[k].mesh) lent[k].mesh = part.mesh;
+        drop_unused(part.mesh);
+        part.changed = true;
+    }
 }
 
 /// Logs the number of faces that are written as triangles, unless all faces are triangles.

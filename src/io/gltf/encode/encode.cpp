@@ -308,6 +308,8 @@ Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Colu
     constexpr int points = 0;
     primitive["mode"] = points;
     primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
+    const Json targets = add_targets(builder, mesh, columns, table.wedges);
+    if (!targets.is_null()) primitive["targets"] = targets;
     return primitive;
 }
 
@@ -320,8 +322,6 @@ void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& co
             ends[mesh.primitive_of_line(l)].push_back(mesh.lines[end]);
     Numbering numbers(mesh.wedge_count());
     for (Index p = 0; p < ends.size(); ++p) {
-    const Json targets = add_targets(builder, mesh, columns, table.wedges);
-    if (!targets.is_null()) primitive["targets"] = targets;
         if (ends[p].empty()) continue;
         Table table{p, {}, std::move(ends[p])};
         numbers.collect(table, table.indices);
