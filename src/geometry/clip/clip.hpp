@@ -30,8 +30,8 @@ struct ClipSettings {
     /// Number cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group; both continue
     /// after the largest existing number.
     bool cap_numbers = false;
-    /// Take float32 positions (all three coordinates) within one float32 ulp of the mesh's bounds as on the
-    /// plane.
+    /// Take positions as on the plane if they may be off it by their rounding alone (CoordinateErrors in
+    /// geometry/cut/cut.hpp).
     bool snap = false;
     CutMemory memory = {}; ///< points known to be on planes
 };
@@ -49,6 +49,7 @@ struct ClipResult {
     std::size_t cut_faces = 0;               ///< that a plane passed through
     std::size_t on_plane = 0;                ///< vertices that count as on a plane
     std::size_t snapped = 0, remembered = 0; ///< among them, by snap and by memory
+    double snapped_by = 0;                   ///< the largest distance of a snapped vertex from its plane
     std::size_t cap_faces = 0;
     bool changed = false;          ///< false: no plane met the mesh and all of it was kept
     std::vector<OpenContour> open; ///< not capped; empty unless cap
@@ -66,10 +67,11 @@ struct ClipResult {
 /// Caps: for a closed mesh, the edges in the plane at which the directions of the kept faces do not cancel
 /// are closed contours. They are projected along the normal's dominant axis and filled by a constrained
 /// Delaunay triangulation that emits each triangle as often as the contours turn around it. So islands and
-/// holes nest, and contours that cross still close. Points where contours cross are also inserted into the
-/// wall faces. Therefore every closed mesh stays closed. It stays edge-manifold unless the plane passes
-/// exactly through a vertex or an edge, or its parts touch in the plane. Open contours are reported and left
-/// open.
+/// holes nest, and contours that cross still close. Vertices and edges of faces that only touch the plane
+/// become corners and edges of the cap, so faces end in none of its triangles. Points where contours cross
+/// are also inserted into the wall faces. Therefore every closed mesh stays closed. A capped manifold mesh
+/// stays manifold: where solids touch in the plane, each gets its own vertices. Open contours are reported
+/// and left open.
 /// Attributes: kept elements keep their attributes; new vertices and wedges are interpolated; pieces copy
 /// their face's. Cap faces have zeros in face attributes other than "primitive". When the mesh has NORMAL or
 /// TEXCOORD_0, caps get their own wedges with the plane's normal and planar coordinates (the cap's larger

@@ -18,6 +18,8 @@ struct Connectivity {
     std::int64_t non_manifold_vertices = 0; ///< whose faces form several fans: edges do not link them all
     std::int64_t duplicate_triangles =
         0; ///< of an all-triangle mesh: triangles of three vertices seen before
+
+    bool is_manifold() const { return crowded_edges == 0 && non_manifold_vertices == 0; }
 };
 
 struct Properties;

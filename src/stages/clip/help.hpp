@@ -11,7 +11,8 @@ agree, and a vertex on the plane is neither in front of it nor behind it. Each c
 vertex, shared by all faces at that edge. Triangles, quads and larger faces, convex or concave, are
 cut directly. A closed part that is capped stays closed in every case: after several planes in a
 row, when it is non-manifold, and when it intersects itself (where it covers a region twice, so does
-its cap). Points that a clip placed on a plane count as lying on it when the same plane is used
+its cap). Where the kept part touches a plane only at a vertex or an edge, the cap has it as a corner
+or an edge, and a manifold part is separated there. Points that a clip placed on a plane count as lying on it when the same plane is used
 again, in this stage or a later one, until a stage moves them. Of a part without faces, a cloud of
 points, the points on the kept side stay; those on a plane are in front of it.
 
