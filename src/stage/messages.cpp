@@ -29,8 +29,8 @@ const RegisterMessages stage_messages{
      "`transform` and `merge` work on points."},
     {"W-SNAPPED",
      "`clip` or `crop` treats vertices near the plane or the outline as on it. The part is so far from the "
-     "origin that neighbouring 32-bit floats are far apart, half a metre in UTM.",
-     "Use `snap: 0` to take positions as they are, if they were never 32-bit floats."},
+     "origin that its 32-bit floats are rounded visibly, by up to a quarter of a metre in UTM.",
+     "Use `snap: 0` to keep positions exact, if they were never 32-bit floats."},
     {"W-SURFACE-LOST",
      "A stage removed all faces of a part, or more of its area than expected. The limit is a tenth, or half "
      "for stages that change the shape: `relax`, `split`, `simplify`, and `clean` with `self_intersections: "

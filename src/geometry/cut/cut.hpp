@@ -5,6 +5,8 @@
 #include "mesh/cut_memory.hpp"
 #include "mesh/provenance.hpp"
 
+#include <cmath>
+
 namespace facetmill {
 
 /// A face's class, as bits.
@@ -24,11 +26,11 @@ struct PlaneCut {
     const Mesh* mesh = nullptr;
     Plane plane;
     std::vector<std::int8_t> signs;                             ///< [vertices] -1, 0, 1
-    std::vector<std::uint8_t> classes;                          ///< [faces] classes
-    std::size_t above_count = 0, below_count = 0, on_count = 0; ///< numbers of vertices
-    std::size_t snapped_count = 0,
-                remembered_count = 0;    ///< the part of on_count that is not exactly on the plane
-    std::vector<Index> cut_faces;        ///< faces with vertices on both sides, ascending
+    std::vector<std::uint8_t> classes;                          ///< [faces]
+    std::size_t above_count = 0, below_count = 0, on_count = 0; ///< vertices
+    std::size_t snapped_count = 0, remembered_count = 0; ///< among on_count, points not exactly on the plane
+    double snapped_by = 0;                               ///< the largest distance of a snapped point
+    std::vector<Index> cut_faces;                        ///< faces with vertices on both sides, ascending
     std::vector<Index> touching;         ///< faces with vertices on the plane and on one side, ascending
     std::vector<Index> flat;             ///< faces in the plane, ascending
     std::vector<Index> crossings;        ///< new wedge at each crossed corner's edge, by cut face and corner
@@ -64,23 +66,40 @@ struct PlaneCut {
     bool meets() const { return on_count > 0 || (above_count > 0 && below_count > 0); }
 };
 
+/// How far positions may be from where they should be, because their coordinates were rounded one by one.
+struct CoordinateErrors {
+    Vec3 single; ///< by axis: the largest error of 32-bit floats, half their step; 0 if not rounded
+    Vec3 twice;  ///< by axis: the same of doubles that are computed in a few steps, four steps
+
+    /// The sums of the errors along a direction, times its length.
+    double of_single(const Vec3& along) const { return sum(single, along); }
+    double of_double(const Vec3& along) const { return sum(twice, along); }
+
+  private:
+    static double sum(const Vec3& errors, const Vec3& along) {
+        return std::fabs(along.x) * errors.x + std::fabs(along.y) * errors.y + std::fabs(along.z) * errors.z;
+    }
+};
+
+/// The rounding of a mesh's positions, by the largest coordinate of each axis. `single` is 0 if less than
+/// half of the positions are 32-bit floats, and for an axis whose numbers show that they were not rounded.
+/// They do if they are multiples of more than the step of floats, or if the other axes have multiples of the
+/// step where their floats are finer. The chance of this in rounded numbers must be below one in a thousand.
+/// Examples are a terrain and a building of whole metres in UTM, whose floats are half a metre apart, or a
+/// metre far in the south.
+[[nodiscard]] CoordinateErrors rounding_of(const Mesh& mesh);
+
 /// The points that count as on a plane in addition to points exactly on it.
 struct OnPlane {
-    /// Float32 positions within this distance (mesh units) count as on the plane; for other positions, the
-    /// distance is 2^-27 times as large. Otherwise a plane through computed vertices would cut off slivers.
-    /// 0: off.
-    double snap = 0;
-    /// Points built on the plane according to this memory count as on it. Null: no known points.
+    /// Positions within this rounding along the plane's normal count as on it. Otherwise a plane through
+    /// computed vertices would cut slivers off at these. The default is exact.
+    CoordinateErrors snap = {};
+    /// Points built on the plane according to this memory count as on it. None: no known points.
     const CutMemory* memory = nullptr;
 };
 
 /// Whether all three coordinates are 32-bit floats.
 bool is_float32(const Vec3& p);
-/// The rounding error of positions that are 32-bit floats: float32_ulp of the bounds. Returns 0 if the
-/// coordinates show that they were not rounded: the largest coordinates are multiples of a larger step, or
-/// coordinates with finer floats along another axis are multiples of the same step. For example, a terrain
-/// may have whole metres in UTM, where floats are 0.5 m apart (1 m far in the south).
-[[nodiscard]] double float32_rounding(const Mesh& mesh);
 
 /// Makes points where a plane crosses edges.
 class CrossingPoints {

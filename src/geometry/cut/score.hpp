@@ -1,6 +1,7 @@
 #pragma once
 // Scores a mesh along a plane: faces are cut, and all pieces stay.
 
+#include "geometry/cut/cut.hpp"
 #include "mesh/cut_memory.hpp"
 #include "mesh/provenance.hpp"
 
@@ -19,7 +20,7 @@ struct ScoreSettings {
     Plane plane;                         ///< in the mesh's own space
     std::span<const std::uint8_t> faces; ///< 1 if the face may be cut; empty: all
     FlatSide flat = FlatSide::by_normal;
-    double snap = 0; ///< see OnPlane::snap
+    CoordinateErrors snap = {}; ///< as OnPlane::snap
 };
 
 struct ScoreResult {

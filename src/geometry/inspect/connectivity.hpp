@@ -19,7 +19,9 @@ struct Connectivity {
     std::int64_t non_manifold_vertices =
         0; ///< vertices whose faces form several fans, because edges do not link them all
     std::int64_t duplicate_triangles =
-        0; ///< for an all-triangle mesh: triangles with the same three vertices as an earlier triangle
+        0; ///< of an all-triangle mesh: triangles of three vertices seen before
+
+    bool is_manifold() const { return crowded_edges == 0 && non_manifold_vertices == 0; }
 };
 
 struct Properties;

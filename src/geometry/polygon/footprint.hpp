@@ -3,7 +3,7 @@
 
 #include "geometry/polygon/ring_tree.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace facetmill {
 
@@ -31,18 +31,15 @@ class Footprint {
 
     /// Like polygon::locate, in logarithmic time.
     polygon::PointLocation locate(const Vec2& p) const;
-    /// Calls visit(segment) for the segments within the distance of a point, until it returns false.
+    /// Calls visit(segment) for the segments that meet the box of that half size around a point, until it
+    /// returns false.
     template <class Visit>
-    void near(const Vec2& p, double distance, Visit&& visit) const {
-        tree_.query({p.x - distance, p.y - distance, p.x + distance, p.y + distance}, [&](Index i) {
+    void near(const Vec2& p, const Vec2& reach, Visit&& visit) const {
+        tree_.query({p.x - reach.x, p.y - reach.y, p.x + reach.x, p.y + reach.y}, [&](Index i) {
             const auto& e = tree_.edges()[i];
-            const Vec2 d = e.b - e.a, to = p - e.a;
-            // Most lines are much farther away than rounding errors. This test finds them without a
-            // division.
-            const double square = dot(d, d), off = cross(d, to), most = 4 * (distance * distance * square);
-            if (off * off > most && most > std::numeric_limits<double>::min()) return true;
-            const double along = dot(to, d) / square, t = along > 0 ? along < 1 ? along : 1 : 0;
-            return length(e.a + d * t - p) > distance || visit(i);
+            const Vec2 d = e.b - e.a;
+            const double most = std::fabs(d.x) * reach.y + std::fabs(d.y) * reach.x;
+            return std::fabs(cross(d, p - e.a)) > most || visit(i);
         });
     }
     double area() const;

@@ -503,9 +503,7 @@ ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
         same.changes = kept_changes(mesh.attributes);
         return same;
     }
-    const Connectivity connectivity = connectivity_of(mesh);
-    if (connectivity.crowded_edges == 0 && connectivity.non_manifold_vertices == 0)
-        return thicken_sheets(mesh, s);
+    if (connectivity_of(mesh).is_manifold()) return thicken_sheets(mesh, s);
     return thicken_sheets(split_non_manifold(mesh), s);
 }
 
