@@ -22,8 +22,8 @@ struct Memory {
     std::vector<report::FileRecord> inputs; ///< files that it read
     std::vector<std::string> absent;        ///< missing files that it looked for
     std::string scene;                      ///< key of the resulting scene
-    std::string told_name;                  ///< the stage's name, if warnings contain it; otherwise empty
-    Box bounds;                             ///< bounds of the resulting scene
+    std::string told_name;                  ///< its name, if warnings contain it; else empty
+    Box bounds;                             ///< of what is drawn of the resulting scene
 };
 [[nodiscard]] io::Bytes encoded(const Memory& memory);
 /// Encodes the memory with this record instead of its own, to avoid a copy.

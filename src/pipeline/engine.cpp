@@ -40,7 +40,7 @@ bool is_skipped(Engine& run, const Step& step, const Scene& scene) {
     if (!step.when) return false;
     if (step.when->known) return !*step.when->known;
     report::StageRecord none; // the step has a record only if it runs
-    const auto results = judged(run, step.when->predicates, step, scene, scene.bounds(), none);
+    const auto results = judged(run, step.when->predicates, step, scene, io::drawn_bounds(scene), none);
     return !std::all_of(results.begin(), results.end(), [](const auto& check) { return check.passed; });
 }
 
@@ -102,7 +102,7 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     const Stopwatch watch;
     const ProgressScope share(run.settings.progress);
     const bool done = run.failures.guarded(step.where, what, [&] {
-        Context context(run.state, stage, step.only, stage.before->bounds, step.where);
+        Context context(run.state, stage, step.only, io::drawn_bounds(scene), step.where);
         if (!step.only.patterns.empty() && !step.info->loads) warn_of_empty_selection(step, scene, context);
         scene = perform(*step.stage, std::move(scene), context, surfaces);
         require_finite(scene);
@@ -111,7 +111,7 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     stage.seconds = watch.seconds();
     if (!done) return false;
     stage.after = report::brief_of(scene);
-    if (step.info->loads) run.state.load_diagonal = diagonal(stage.after->bounds);
+    if (step.info->loads) run.state.load_diagonal = diagonal(io::drawn_bounds(scene));
     if (step.info->loads && run.keeps_loaded)
         run.state.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
     run.cache.keep(step, flow, run.state, stage, before);
@@ -249,7 +249,7 @@ std::optional<bool> run_step(Engine& run, const Step& step, SceneState& flow, bo
     std::size_t checked = run.record().checks.size();
     std::shared_ptr<const Surface> reference;
     if (!run.guarded(step, [&] { reference = reference_of(run, step, flow.scene); })) return {};
-    const Box entered = step.ensure ? flow.bounds() : Box{};
+    const Box entered = step.ensure ? flow.drawn_bounds() : Box{};
     if (step.kind == Step::Kind::stage) {
         const auto source = [&](report::StageRecord& stage) {
             return recall_or_perform(run, step, flow, stage);

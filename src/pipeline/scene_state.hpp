@@ -2,6 +2,7 @@
 // The scene between steps: in memory, or as a description of a cached scene.
 
 #include "cache/state.hpp"
+#include "io/gltf/gltf.hpp"
 #include "pipeline/plan.hpp"
 #include "report/contents.hpp"
 #include "stage/surface_loss.hpp"
@@ -44,7 +45,7 @@ struct SceneState {
 
     /// True if `scene` is the current scene.
     bool is_here() const { return recalled.empty(); }
-    Box bounds() const { return is_here() ? scene.bounds() : recalled.back().memory.bounds; }
+    Box drawn_bounds() const { return is_here() ? io::drawn_bounds(scene) : recalled.back().memory.bounds; }
     /// The same scene for an arm. Work to fetch it is done once, for all arms.
     SceneState branched_off() {
         SceneState arm;

@@ -55,9 +55,11 @@ struct PartView {
 };
 /// [parts]. Throws malformed when the nodes or animations of a document are invalid.
 [[nodiscard]] std::vector<PartView> part_views(const Scene& scene);
-/// The world box of what viewers draw, each part at its largest scale. Unused vertices, hidden parts and
-/// lower levels of detail do not count, unless nothing else is left.
+/// The world box of what viewers draw, each part at its largest scale. Unused vertices of documents, hidden
+/// parts and lower levels of detail do not count, unless nothing else is left.
 [[nodiscard]] Box drawn_bounds(const Scene& scene, const std::vector<PartView>& views);
+/// The same; the bounds at rest if a document is invalid.
+[[nodiscard]] Box drawn_bounds(const Scene& scene);
 
 /// By how much lengths of a part have grown since its materials were made.
 struct LengthGrowth {
@@ -72,6 +74,9 @@ struct LengthGrowth {
 /// mesh, the attenuation distance in the world). A material that parts need with different lengths gets
 /// copies. growth: [parts].
 void scale_material_lengths(Scene& scene, const std::vector<LengthGrowth>& growth);
+/// Moves the cameras and lights of each document whose parts all move alike, and scales their lengths. moved:
+/// [parts].
+void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by);
 /// [parts] the thicknesses of the volumes (KHR_materials_volume) in the world, ascending.
 [[nodiscard]] std::vector<std::vector<double>> thicknesses(const Scene& scene);
 

@@ -1,6 +1,7 @@
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
 #include "geometry/edit/equal_wedges.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
@@ -363,8 +364,8 @@ class Optimizing {
     }
 
     void drop_tracks() {
-        const Box box = scene_.bounds();
-        constexpr double ratio = 1e-6; // times the diagonal
+        const Box box = io::drawn_bounds(scene_);
+        constexpr double ratio = 1e-6; // of the diagonal
         const double within = box.empty() ? 0 : ratio * length(box.extent());
         for (auto& tidy : tidies_) tidy.drop_resting_tracks(within);
     }

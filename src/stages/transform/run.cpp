@@ -119,13 +119,16 @@ class Mover {
         all_ = t * all_;
         const double growth = io::length_growth(t);
         std::vector<io::LengthGrowth> lengths(scene_.parts.size());
-        for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
+        std::vector<bool> moved(lengths.size());
+        for (std::size_t i = 0; i < moved.size(); ++i) {
             Part& part = scene_.parts[i];
             if (!context_.selects(part, scene_)) continue;
+            moved[i] = true;
             part.transform = t * part.transform;
             lengths[i] = {part.skinned ? growth : 1, growth};
         }
         io::scale_material_lengths(scene_, lengths);
+        io::move_cameras_and_lights(scene_, moved, t);
     }
 
     /// Parts whose node has another purpose keep it: an animation would move baked points about another

@@ -4,6 +4,7 @@
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
 #include "mesh/drawn_box.hpp"
+#include "mesh/finite_box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,19 +12,6 @@
 namespace facetmill::io::gltf {
 
 namespace {
-
-/// The node whose scale a channel drives; none for other properties.
-std::optional<std::size_t> scaled_node(const Json& channel, std::size_t nodes) {
-    const auto target = channel.find("target");
-    if (target == channel.end() || !target->is_object()) return {};
-    const std::string path = target->value("path", "");
-    if (path == "scale") return index_at(*target, "node", nodes);
-    const Json::json_pointer place("/extensions/KHR_animation_pointer/pointer");
-    if (path != "pointer" || !target->contains(place) || !(*target)[place].is_string()) return {};
-    for (std::size_t n = 0; n < nodes; ++n)
-        if ((*target)[place] == "/nodes/" + std::to_string(n) + "/scale") return n;
-    return {};
-}
 
 /// The values of a track; none if they cannot be read: viewers cannot play such a track either.
 std::optional<Attribute> keys_of(Source& source, const JsonCursor& sampler) {
@@ -64,16 +52,20 @@ std::vector<Transform> largest_worlds(Source& source, const std::vector<NodeFram
     std::map<std::size_t, Vec3> scales; // of animated nodes, without signs
     for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
         const JsonCursor animation = item(document, "animations", a);
-        const JsonCursor channels = animation.at("channels"), samplers = animation.at("samplers");
+        const JsonCursor channels = animation.at("channels");
+        const auto samplers = animation.find("samplers");
         for (std::size_t c = 0; c < channels.size(); ++c) {
-            const auto node = scaled_node(channels.at(c).json(), frames.size());
-            if (!node || document["nodes"][*node].contains("matrix")) continue;
-            const Vec3 rest = rest_scale(document["nodes"][*node]);
+            const auto property = animated_property(channels.at(c), frames.size());
+            if (!samplers || !property || property->path != "scale") continue;
+            const auto sampler = index_at(channels.at(c).json(), "sampler", samplers->size());
+            if (!sampler) continue;
+            const Json& node = document["nodes"][property->node];
+            if (node.contains("matrix")) continue;
+            const Vec3 rest = rest_scale(node);
             Vec3& scale =
-                scales.try_emplace(*node, Vec3{std::abs(rest.x), std::abs(rest.y), std::abs(rest.z)})
+                scales.try_emplace(property->node, Vec3{std::abs(rest.x), std::abs(rest.y), std::abs(rest.z)})
                     .first->second;
-            const std::size_t s = channels.at(c).at("sampler").index(samplers.size(), "sampler");
-            add_keys(source, samplers.at(s), scale);
+            add_keys(source, samplers->at(*sampler), scale);
         }
     }
     std::vector<Transform> worlds(frames.size());
@@ -124,6 +116,20 @@ bool is_invisible(const Json& node) {
     return node.contains(visible) && node[visible] == false;
 }
 
+/// The nodes whose visibility an animation drives.
+std::set<std::size_t> appearing_nodes(const Json& document) {
+    std::set<std::size_t> nodes;
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const JsonCursor channels = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const auto property = animated_property(channels.at(c), count_of(document, "nodes"));
+            if (property && property->path == "extensions/KHR_node_visibility/visible")
+                nodes.insert(property->node);
+        }
+    }
+    return nodes;
+}
+
 /// The levels of detail that replace other nodes.
 std::set<std::size_t> lower_levels(const Json& document) {
     std::set<std::size_t> levels;
@@ -142,17 +148,16 @@ NodeViews views_of(const Document& document) {
     NodeViews views{node_frames(json), {}};
     const auto worlds = largest_worlds(source, views.frames);
     const auto shown = shown_nodes(json);
-    const auto animated = animated_nodes(json);
+    const auto animated = animated_nodes(json), appearing = appearing_nodes(json);
     const auto levels = lower_levels(json);
-    const bool may_appear = uses_extension(json, "KHR_animation_pointer"); // it may drive the visibility
     views.of.resize(views.frames.size());
     for (const std::size_t n : parents_first(views.frames)) {
         const Json& node = json["nodes"][n];
         const int parent = views.frames[n].parent;
         PartView& view = views.of[n];
         if (parent >= 0) view = views.of[static_cast<std::size_t>(parent)];
-        view.animated |= animated.contains(n);
-        view.hidden |= !shown[n] || (is_invisible(node) && !may_appear);
+        view.animated |= animated.contains(n) || appearing.contains(n);
+        view.hidden |= !shown[n] || (is_invisible(node) && !appearing.contains(n));
         view.lower_level |= levels.contains(n);
         view.has_levels |= has_content(node, "MSFT_lod", "ids");
         view.instanced = has_content(node, instancing_extension, "attributes");
@@ -198,14 +203,56 @@ std::vector<PartView> part_views(const Scene& scene) {
     return views;
 }
 
+namespace {
+Box box_in_world(const Part& part) {
+    if (part.transform.identity()) return part.mesh.bounds();
+    return box_of_finite(part.mesh.vertex_count(),
+                         [&](std::size_t v) { return part.transform.point(part.mesh.positions[v]); });
+}
+
+/// The box around the corners of another one after a transform.
+Box moved(const Box& box, const Transform& t) {
+    Box out;
+    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+        out.add(t.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+                         (corner & 4 ? box.max : box.min).z}));
+    return out;
+}
+
+/// Adds the boxes of all instances of parts that are drawn.
+void add_instances(const Scene& scene, const std::vector<PartView>& views, Box& shown) {
+    const bool any = std::any_of(views.begin(), views.end(),
+                                 [](const PartView& view) { return view.instanced && view.is_drawn(); });
+    if (!any) return;
+    std::map<std::size_t, Box> boxes; // by part
+    for_each_place_of_instances(scene, [&](std::size_t i, const Transform& place, double) {
+        if (!views[i].is_drawn()) return;
+        const auto [known, first] = boxes.try_emplace(i);
+        if (first) known->second = drawn_box(scene.parts[i].mesh);
+        shown.add(moved(known->second, place));
+    });
+}
+} // namespace
+
 Box drawn_bounds(const Scene& scene, const std::vector<PartView>& views) {
     Box shown, all;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        const Box box = drawn_box(scene.parts[i].mesh, views[i].largest);
+        const Part& part = scene.parts[i];
+        const bool placed = part.document >= 0 && part.node >= 0;
+        const Box box = placed ? drawn_box(part.mesh, views[i].largest) : box_in_world(part);
         all.add(box);
         if (views[i].is_drawn()) shown.add(box);
     }
+    add_instances(scene, views, shown);
     return shown.empty() ? all : shown;
+}
+
+Box drawn_bounds(const Scene& scene) {
+    try {
+        return drawn_bounds(scene, part_views(scene));
+    } catch (const Error&) { // a document whose animations are invalid: viewers cannot play them
+        return scene.bounds();
+    }
 }
 
 } // namespace facetmill::io

@@ -4,7 +4,7 @@
 #include "base/text/unique_names.hpp"
 #include "io/gltf/gltf.hpp"
 
-#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -154,15 +154,31 @@ std::vector<bool> shown_nodes(const Json& document) {
     return shown;
 }
 
+std::optional<AnimatedProperty> animated_property(const JsonCursor& channel, std::size_t nodes) {
+    const JsonCursor target = channel.at("target");
+    if (target.find("node")) {
+        const std::size_t node = target.at("node").index(nodes, "node");
+        return AnimatedProperty{node, target.text_or("path", "")};
+    }
+    const auto extensions = target.find("extensions");
+    const auto pointer = extensions ? extensions->find("KHR_animation_pointer") : std::nullopt;
+    const std::string text = pointer ? pointer->text_or("pointer", "") : "";
+    constexpr std::string_view start = "/nodes/";
+    std::size_t node = 0;
+    if (!text.starts_with(start)) return {};
+    const auto [at, error] = std::from_chars(text.data() + start.size(), text.data() + text.size(), node);
+    if (error != std::errc() || *at != '/' || node >= nodes) return {};
+    return AnimatedProperty{node, std::string(at + 1)};
+}
+
 std::set<std::size_t> animated_nodes(const Json& document) {
     std::set<std::size_t> nodes;
     for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
         const JsonCursor channels = item(document, "animations", a).at("channels");
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-            const JsonCursor target = channels.at(c).at("target");
-            if (target.text_or("path", "") != "weights" && target.find("node"))
-                nodes.insert(target.at("node").index(count_of(document, "nodes"), "node"));
-        }
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            if (const auto property = animated_property(channels.at(c), count_of(document, "nodes")))
+                for (const char* path : {"translation", "rotation", "scale"})
+                    if (property->path == path) nodes.insert(property->node);
     }
     return nodes;
 }

@@ -37,10 +37,18 @@ using Warn = std::function<void(const char*, std::string)>;
 /// of detail of such a node. All nodes if the document has no scenes. Invalid references are skipped.
 [[nodiscard]] std::vector<bool> shown_nodes(const Json& document);
 
-/// The nodes whose translation, rotation or scale an animation drives.
+/// The nodes whose translation, rotation or scale an animation drives, also by KHR_animation_pointer.
 [[nodiscard]] std::set<std::size_t> animated_nodes(const Json& document);
 
-/// A mesh with faces, or else lines or points, and its transform: one part of the scene. The writer builds the same
+/// A property that a channel of an animation drives: "scale" or, with KHR_animation_pointer, another one.
+struct AnimatedProperty {
+    std::size_t node;
+    std::string path;
+};
+/// None for channels that drive no node. Throws malformed (E-GLTF).
+[[nodiscard]] std::optional<AnimatedProperty> animated_property(const JsonCursor& channel, std::size_t nodes);
+
+/// A mesh with faces, or else lines, and its transform: one part of the scene. The writer builds the same
 /// list to find changes.
 struct Placement {
     std::string name; ///< the name of the node, otherwise of the mesh; unique in the document

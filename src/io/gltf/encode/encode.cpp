@@ -209,6 +209,7 @@ void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tab
             primitive["attributes"][column.semantic] = accessors[column.semantic];
         }
         if (!targets.is_null()) primitive["targets"] = targets;
+        drop_baseless_targets(builder, primitive);
         Json accessor = {{"bufferView", view}, {"byteOffset", offset}};
         accessor.update(index_accessor(table.indices.size(), wide));
         offset += table.indices.size() * (wide ? 4 : 2);
@@ -291,6 +292,28 @@ Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& 
     return targets;
 }
 
+void drop_baseless_targets(Builder& builder, Json& primitive) {
+    if (!primitive.contains("targets")) return;
+    const Json& attributes = primitive["attributes"];
+    for (Json& target : primitive["targets"]) {
+        Json kept = Json::object();
+        for (const auto& [semantic, accessor] : target.items()) {
+            if (attributes.contains(semantic))
+                kept[semantic] = accessor;
+            else
+                builder.release({{"attributes", {{"baseless", accessor}}}});
+        }
+        if (kept.empty() && !target.empty()) {
+            const Json& like = builder.json()["accessors"][attributes["POSITION"].get<std::size_t>()];
+            const Json zero = {0, 0, 0};
+            Json zeros = {{"componentType", int(float32)}, {"count", like["count"]}, {"type", "VEC3"}};
+            zeros["min"] = zeros["max"] = zero;
+            kept["POSITION"] = builder.add_accessor(std::move(zeros));
+        }
+        target = std::move(kept);
+    }
+}
+
 bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
     const auto lists = [&](const Primitive& p) { return p.lists(column.data.name); };
     return primitive >= mesh.primitives.size() || mesh.primitives[primitive].has(column.data.name) ||
@@ -333,6 +356,7 @@ void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& co
         primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
         const Json targets = add_targets(builder, mesh, columns, table.wedges);
         if (!targets.is_null()) primitive["targets"] = targets;
+        drop_baseless_targets(builder, primitive);
         primitive["indices"] = add_indices(builder, table);
         out.primitives.push_back(std::move(primitive));
     }
@@ -377,6 +401,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
             primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
             const Json targets = add_targets(builder, mesh, columns, table.wedges);
             if (!targets.is_null()) primitive["targets"] = targets;
+            drop_baseless_targets(builder, primitive);
             primitive["indices"] = add_indices(builder, table);
         }
         out.primitives.push_back(std::move(primitive));

@@ -73,6 +73,9 @@ std::size_t add_vertex_data(Builder& builder, const AttributeData& data, int com
 /// The morph target accessors for these wedges, as the primitive's "targets"; null without targets.
 Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
                  const std::vector<Index>& wedges);
+/// glTF displaces only attributes that the primitive has. Drops the other displacements of its targets; a
+/// target that would become empty displaces positions by zero.
+void drop_baseless_targets(Builder& builder, Json& primitive);
 /// True if the primitive had the column, or the column is new.
 bool has_column(const Mesh& mesh, Index primitive, const Column& column);
 

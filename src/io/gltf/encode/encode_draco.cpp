@@ -114,6 +114,7 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
         builder.add_accessor(object_of("componentType", wide ? int(uint32) : int(uint16), "count",
                                        output.decoded->triangles.size(), "type", "SCALAR"));
     if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
+    drop_baseless_targets(builder, primitive);
     if (settings.draco.keep_decoded) builder.decoded.add(output.bytes, output.decoded);
     primitive["extensions"]["KHR_draco_mesh_compression"] =
         object_of("bufferView", builder.add_view(std::move(output.bytes)), "attributes", std::move(ids));

@@ -92,6 +92,7 @@ class Store {
     std::map<std::size_t, Lattice> lattice_of_node_; ///< lattices of nodes whose parts have one
     std::vector<NodeFrame> frames_;
     std::set<std::size_t> animated_, joints_;
+    std::set<std::size_t> fixed_;             ///< meshes that extensions use by themselves, such as colliders
     std::vector<double> growth_;              ///< by mesh, of its coordinates
     std::map<std::string, std::size_t> made_; ///< by accessor and requested form
 };
@@ -156,10 +157,25 @@ std::optional<Stored> Store::as_floats(const Attribute& numbers, int exponent, b
 
 // --- positions
 
+/// Calls see for each member "mesh" or "node" within extensions.
+void see_extension_references(const Json& json, bool within,
+                              const std::function<void(const std::string&, std::size_t)>& see) {
+    if (json.is_array())
+        for (const Json& item : json) see_extension_references(item, within, see);
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items()) {
+        if (within && (key == "mesh" || key == "node") && value.is_number_unsigned())
+            see(key, value.get<std::size_t>());
+        if (value.is_structured() && key != "extras")
+            see_extension_references(value, within || key == "extensions", see);
+    }
+}
+
 /// The reason why a node cannot hold the grid of its mesh; null if it can.
 const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid) {
     if (uses_extension(json_, "KHR_animation_pointer"))
         return "stays float32, because KHR_animation_pointer may drive its nodes";
+    if (fixed_.contains(mesh)) return "stays float32, because an extension uses the mesh without its node";
     if (nodes_[mesh].empty()) return "stays float32, because no node could hold its grid";
     for (const std::size_t n : nodes_[mesh]) {
         const Json& node = json_["nodes"][n];
@@ -532,6 +548,14 @@ void Store::run() {
     growth_.resize(nodes_.size(), 1);
     for (std::size_t n = 0; n < frames_.size(); ++n)
         if (frames_[n].mesh >= 0) nodes_[static_cast<std::size_t>(frames_[n].mesh)].push_back(n);
+    for (const char* list : {"extensions", "scenes", "nodes", "meshes"})
+        if (json_.contains(list))
+            see_extension_references(json_[list], list == std::string_view("extensions"),
+                                     [&](const std::string& key, std::size_t i) {
+                                         if (key == "mesh") fixed_.insert(i);
+                                         if (key == "node" && i < frames_.size() && frames_[i].mesh >= 0)
+                                             fixed_.insert(static_cast<std::size_t>(frames_[i].mesh));
+                                     });
     for (std::size_t s = 0; s < count_of(json_, "skins"); ++s)
         for (const Json& joint : json_["skins"][s].value("joints", Json::array()))
             joints_.insert(joint.get<std::size_t>());

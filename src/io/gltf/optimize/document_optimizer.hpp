@@ -71,8 +71,9 @@ class DocumentOptimizer {
     std::size_t merge_equal_accessors();
 
     /// Erases animation tracks that never move a node away from its rest transform, unless another animation
-    /// moves the same property. Translations are compared within a length, rotations and scales within 1e-5.
-    /// An animation keeps its duration. Returns the number of tracks. Call it before erase_unused.
+    /// moves the same property. Translations are compared within a length in the world, rotations and scales
+    /// within 1e-5. An animation keeps its duration. Returns the number of tracks. Call it before
+    /// erase_unused.
     std::size_t drop_resting_tracks(double length);
 
     /// Moves nodes to the top of their scene, keeping their world transforms. `emptied` receives their

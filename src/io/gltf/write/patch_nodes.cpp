@@ -327,6 +327,17 @@ void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
     if (!local.identity()) node["matrix"] = matrix(local);
 }
 
+/// Drops the sizes on the screen at which levels change if they are not as many as the levels.
+void drop_coverage(Patch& patch, Json& node, std::size_t levels) {
+    const Json::json_pointer coverage("/extras/MSFT_screencoverage");
+    if (!node.contains(coverage) || node[coverage].size() == levels + 1) return;
+    node["extras"].erase("MSFT_screencoverage");
+    if (node["extras"].empty()) node.erase("extras");
+    patch.warn("W-LODS", fmt::format("node '{}' has other levels of detail now: its MSFT_screencoverage is "
+                                     "dropped, which counts the old ones",
+                                     node.value("name", "")));
+}
+
 /// Turns parts X.lod1, X.lod2, ... into levels of X.
 void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& node_of_part) {
     if (!patch.settings.lods) return;
@@ -350,8 +361,9 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
                 place_level(document["nodes"][node], parent,
                             node_world(patch, claims, patch.scene.parts[part]));
         }
-        document["nodes"][static_cast<std::size_t>(node_of_part[base])]["extensions"]["MSFT_lod"] = {
-            {"ids", ids}};
+        Json& node = document["nodes"][static_cast<std::size_t>(node_of_part[base])];
+        drop_coverage(patch, node, ids.size());
+        node["extensions"]["MSFT_lod"] = {{"ids", ids}};
     }
     if (linked > 0)
         patch.builder.use_extension("MSFT_lod", false);
