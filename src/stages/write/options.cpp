@@ -28,8 +28,8 @@ void declare_grid(Declare<Options>& d) {
          {"mesh", Grid::mesh, "each mesh has all bits for its own longest side"},
          {"even", Grid::even,
           "the same steps everywhere, those of the scene's longest side, however small a mesh is, but finer "
-          "ones where vertices would coincide otherwise; in quantize, parts that meet keep meeting: where "
-          "none is turned, all have one grid. Meshes that an animation moves are as with scene"}},
+          "ones where vertices would coincide otherwise. Parts that meet keep meeting: where none is turned, "
+          "all have one grid. Meshes that an animation moves are as with scene"}},
         "What the bits of positions are of.");
 }
 

@@ -86,7 +86,8 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     DracoInput input;
     set_draco_grid(mesh, input); // of the whole mesh: points on common borders match
     if (settings.whole_positions) set_whole_steps(input, settings.draco.position_bits);
-    widen_draco_grid(input, settings.draco_step, settings.draco.position_bits);
+    set_draco_lattice(mesh, settings.lattice.origin, settings.lattice.step, input,
+                      settings.draco.position_bits);
     set_positions(mesh, table, input);
     input.triangles = table.indices;
     std::vector<const Column*> used;

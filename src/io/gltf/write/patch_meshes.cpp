@@ -93,7 +93,7 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     s.draco = patch.settings.draco;
     const auto number = static_cast<std::size_t>(&part - &patch.scene.parts[0]);
     s.draco.position_bits = patch.settings.grid_bits(number);
-    s.draco_step = patch.settings.lattice(number).step;
+    s.lattice = patch.settings.lattice(number);
     s.quantize = patch.settings.quantize;
     s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
     s.manifold = patch.settings.mesh_manifold;
