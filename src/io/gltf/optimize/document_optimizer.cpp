@@ -205,8 +205,8 @@ std::vector<std::size_t> DocumentOptimizer::merge_equal(bool keep_names) {
     return first;
 }
 
-std::size_t DocumentOptimizer::merge_equal_accessors() {
-    if (!known_) return 0;
+std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
+    if (may_name_accessors(json_)) return 0;
     std::vector<Bytes> buffers = document_.buffers;
     buffers.insert(buffers.end(), added_.begin(), added_.end());
     Source source(json_, buffers);
@@ -215,10 +215,11 @@ std::size_t DocumentOptimizer::merge_equal_accessors() {
     std::map<std::string, std::size_t> alike;
     for (std::size_t a = 0; a < count; ++a) {
         Json item = json_["accessors"][a];
-        if (!item.contains("bufferView") || item.contains("sparse") || item.contains("name") ||
-            has_more(item) || source.without_bytes(item["bufferView"].get<std::size_t>()))
+        if (!item.contains("bufferView") || item.contains("sparse") ||
+            (keep_names && item.contains("name")) || has_more(item) ||
+            source.without_bytes(item["bufferView"].get<std::size_t>()))
             continue;
-        for (const char* key : {"bufferView", "byteOffset", "min", "max"}) item.erase(key);
+        for (const char* key : {"name", "bufferView", "byteOffset", "min", "max"}) item.erase(key);
         const Json& view = json_["bufferViews"][json_["accessors"][a]["bufferView"].get<std::size_t>()];
         said[a] = to_string(item) + to_string(view.value("target", Json()));
         ++alike[said[a]];
@@ -339,8 +340,11 @@ TidyNumbers DocumentOptimizer::erase_unused(const TidyRequest& request) {
         erased_.textures += tidy("textures", visit_texture_references);
         erased_.samplers += tidy("samplers", visit_sampler_references);
         erased_.images += tidy("images", visit_image_references);
-        erased_.accessors += tidy("accessors", visit_accessor_references);
-        tidy("bufferViews", visit_view_references);
+    }
+    if (!may_name_accessors(json_)) {
+        erased_.accessors += erase("accessors", visit_accessor_references,
+                                   unnamed("accessors", visit_accessor_references, {}));
+        erase("bufferViews", visit_view_references, unnamed("bufferViews", visit_view_references, {}));
         if (all_) drop_bounds();
     }
     numbers.nodes = numbers_without(nodes, dead_nodes);

@@ -281,7 +281,7 @@ void drop_dead_meshes(Patch& patch, const PartMeshes& meshes) {
         if (mesh >= 0) dead.erase(static_cast<std::size_t>(mesh));
     Json& json = patch.builder.json();
     visit_mesh_references(json, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
-    if (dead.empty() || has_unknown_extensions(json)) return;
+    if (dead.empty() || has_unknown_extensions(json)) return; // also pointers of animations
     for (const std::size_t mesh : dead)
         for (const auto& primitive : json["meshes"][mesh]["primitives"]) patch.builder.release(primitive);
     erase_items(json["meshes"], dead, [&](const auto& visit) { visit_mesh_references(json, visit); });
