@@ -37,11 +37,16 @@ struct DistinctParts {
     }
 
   private:
+    friend DistinctParts distinct_geometry(const Scene& scene);
+    DistinctParts(const Scene& scene, bool with_primitives);
     explicit DistinctParts(std::vector<std::size_t> first_of_each) : first(std::move(first_of_each)) {}
     void count();
 };
 
-/// Equal parts that differ only by a translation, so that they have the same shape in the world.
+/// ... whose meshes are equal except for the data of their primitives, such as materials.
+[[nodiscard]] DistinctParts distinct_geometry(const Scene& scene);
+
+/// ... which differ by a move only: in the world they have the same shape.
 [[nodiscard]] DistinctParts distinct_shapes(const Scene& scene);
 
 } // namespace facetmill

@@ -1,6 +1,6 @@
 #include "stages/optimize/join.hpp"
 
-#include "io/gltf/gltf.hpp"
+#include "geometry/edit/equal_wedges.hpp"
 #include "mesh/transform.hpp"
 
 #include <algorithm>
@@ -127,6 +127,8 @@ void join(Scene& scene, const JoinedParts& group) {
     first.changed = true;
     first.cuts.reset();
     join_primitives(first.mesh);
+    weld_exact(first.mesh);
+    merge_and_drop_wedges(first.mesh);
 }
 
 } // namespace facetmill::optimize_stage

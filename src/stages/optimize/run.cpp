@@ -90,7 +90,7 @@ class Optimizing {
         if (o_.instance) instance();
         if (o_.join) join_parts();
         if (o_.dedup)
-            for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors();
+            for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors(o_.keep_names);
         if (o_.prune) drop_tracks();
         erase();
         report_.draw_calls_after = draw_calls_of(scene_);

@@ -10,6 +10,7 @@
 #include "io/packing.hpp"
 #include "io/read_back.hpp"
 
+#include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
 #include "stages/write/lattice.hpp"
 
@@ -61,15 +62,13 @@ bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> li
     return enough;
 }
 
-/// Parts that share a mesh get the largest number of bits among them.
-void as_shared(std::vector<int>& bits, const Scene& scene) {
-    std::map<std::pair<int, int>, int> most;
-    const auto key = [&](std::size_t i) {
-        return std::pair(scene.parts[i].document, scene.parts[i].source_mesh);
-    };
-    for (std::size_t i = 0; i < bits.size(); ++i) most[key(i)] = std::max(most[key(i)], bits[i]);
-    for (std::size_t i = 0; i < bits.size(); ++i)
-        if (scene.parts[i].source_mesh >= 0) bits[i] = most[key(i)];
+/// Parts of the same geometry get the largest number of bits among them, so that it is stored once.
+void as_shared(std::vector<int>& bits, const DistinctParts& shapes) {
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+        int& most = bits[shapes.first[i]];
+        most = std::max(most, bits[i]);
+    }
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = bits[shapes.first[i]];
 }
 
 std::string why(int usual, Grid grid, int limit, bool enough) {
@@ -239,9 +238,9 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     if ((!s.draco.on && !s.quantize.on) || scene.parts.empty()) return;
     const int usual = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
     const bool given = bits_are_given(s, o);
-    const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::scene
+    const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::even
                       : o.quantize ? o.quantize->grid
-                                   : Grid::scene;
+                                   : Grid::even;
     const std::optional<int> limit = given ? std::nullopt : std::optional(s.draco.on ? 24 : 16);
     s.tiles.given_bits = given;
     if (codec.can.tiles) return; // tilesets choose a common grid: io/tileset/frame.hpp
@@ -252,9 +251,11 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
                                          : bits_of_scene(scene, views, usual);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
-        as_shared(s.part_bits, scene);
+        const DistinctParts shapes = distinct_geometry(scene);
+        as_shared(s.part_bits, shapes);
         if (grid == Grid::even) {
-            EvenGrid even = even_grid(scene, s.part_bits, usual, limit.value_or(usual), views);
+            const BitLimits limits{usual, limit.value_or(usual), s.draco.on};
+            EvenGrid even = even_grid(scene, shapes, s.part_bits, limits, io::animated_parts(scene));
             s.part_bits = std::move(even.bits);
             s.lattices = std::move(even.lattices);
         }

@@ -96,18 +96,17 @@ Json index_accessor(std::size_t count, bool wide) {
 
 std::size_t add_indices(Builder& builder, const Table& table) {
     const bool wide = needs_wide(table.wedges.size());
-    Json accessor = {{"bufferView", builder.add_view(index_bytes(table.indices, wide), element_buffer)}};
-    accessor.update(index_accessor(table.indices.size(), wide));
-    return builder.add_accessor(std::move(accessor));
+    return builder.add_shared(index_bytes(table.indices, wide), element_buffer, 0,
+                              index_accessor(table.indices.size(), wide));
 }
 
 std::size_t add_positions(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges, bool exact) {
-    const std::size_t added = add_vertex_data(builder, positions_of(mesh, wedges), 3, false, true);
-    if (!exact) return added;
-    std::vector<Vec3>& positions = builder.exact_positions[added];
+    Stored stored = plain(positions_of(mesh, wedges), 3, false, true);
+    if (!exact) return builder.add_stored(std::move(stored), array_buffer);
+    std::vector<Vec3> positions;
     positions.reserve(wedges.size());
     for (const Index w : wedges) positions.push_back(mesh.positions[mesh.vertex_of_wedge(w)]);
-    return added;
+    return builder.add_positions(std::move(stored), std::move(positions));
 }
 
 Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
@@ -119,6 +118,14 @@ Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
                 add_vertex_data(builder, gathered(mesh, column, table.wedges), column.data.components,
                                 column.data.normalised, false);
     return attributes;
+}
+
+bool is_zero(const AttributeData& data) {
+    return std::visit(
+        [](const auto& numbers) {
+            return std::all_of(numbers.begin(), numbers.end(), [](auto x) { return x == 0; });
+        },
+        data);
 }
 
 /// The primitive's material, extras and extensions from the source.
@@ -285,9 +292,14 @@ Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& 
         if (column.target < 0) continue;
         if (targets.is_null()) targets = Json::array();
         while (targets.size() <= static_cast<std::size_t>(column.target)) targets.push_back(Json::object());
+        const AttributeData data = gathered(mesh, column, wedges);
+        const bool bounds = column.semantic == "POSITION";
+        // An accessor without a view is all zeros, as normals often are that an exporter adds.
         targets[static_cast<std::size_t>(column.target)][column.semantic] =
-            add_vertex_data(builder, gathered(mesh, column, wedges), column.data.components,
-                            column.data.normalised, column.semantic == "POSITION");
+            is_zero(data)
+                ? builder.add_accessor(
+                      accessor_json(data, column.data.components, column.data.normalised, bounds))
+                : add_vertex_data(builder, data, column.data.components, column.data.normalised, bounds);
     }
     return targets;
 }

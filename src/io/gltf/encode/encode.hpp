@@ -13,7 +13,7 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
-    double draco_step = 0;                     ///< step for positions, if larger than the step of the bits
+    Lattice lattice{};                         ///< of positions under Draco; without a step: of the mesh
     QuantizeSettings quantize;                 ///< later rounding of attributes
     bool filters = false;                      ///< rounding will use meshopt's filters
     bool manifold = false;                     ///< write EXT_mesh_manifold

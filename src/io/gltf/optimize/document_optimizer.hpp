@@ -67,8 +67,9 @@ class DocumentOptimizer {
     /// unknown way (numbers_are_known).
     TidyNumbers erase_unused(const TidyRequest& request);
 
-    /// Merges equal accessors, by their bytes. Returns the number of duplicates.
-    std::size_t merge_equal_accessors();
+    /// Merges equal accessors, by their bytes. keep_names: those with names stay. Returns the number of
+    /// duplicates.
+    std::size_t merge_equal_accessors(bool keep_names);
 
     /// Erases animation tracks that never move a node away from its rest transform, unless another animation
     /// moves the same property. Translations are compared within a length in the world, rotations and scales

@@ -93,7 +93,7 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     s.draco = patch.settings.draco;
     const auto number = static_cast<std::size_t>(&part - &patch.scene.parts[0]);
     s.draco.position_bits = patch.settings.grid_bits(number);
-    s.draco_step = patch.settings.lattice(number).step;
+    s.lattice = patch.settings.lattice(number);
     s.quantize = patch.settings.quantize;
     s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
     s.manifold = patch.settings.mesh_manifold;
@@ -281,7 +281,7 @@ void drop_dead_meshes(Patch& patch, const PartMeshes& meshes) {
         if (mesh >= 0) dead.erase(static_cast<std::size_t>(mesh));
     Json& json = patch.builder.json();
     visit_mesh_references(json, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
-    if (dead.empty() || has_unknown_extensions(json)) return;
+    if (dead.empty() || has_unknown_extensions(json)) return; // also pointers of animations
     for (const std::size_t mesh : dead)
         for (const auto& primitive : json["meshes"][mesh]["primitives"]) patch.builder.release(primitive);
     erase_items(json["meshes"], dead, [&](const auto& visit) { visit_mesh_references(json, visit); });
