@@ -21,7 +21,7 @@ void PageView::before(const Scene& scene) {
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     if (page_.camera()) viewed_.stand_as(*page_.camera(), page_.camera_up());
-    viewed_.add_before(scene, "as loaded", materials(scene));
+    viewed_.add_before(scene, "the input", materials(scene));
 }
 
 void PageView::add(const Scene& scene, const std::string& name) {
@@ -38,7 +38,7 @@ void PageView::failed(const std::string& name, const Scene& scene) {
 }
 
 void PageView::at_end(const Scene& scene) {
-    if (!any_after_) add(scene, "the scene at the end");
+    if (!any_after_) add(scene, "the final scene");
 }
 
 } // namespace facetmill::report
