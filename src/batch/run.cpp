@@ -312,7 +312,7 @@ class BatchRun {
         const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
         if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
         throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
-                    fmt::format("'{}' is written for {}, too, with other contents", file.target.string(),
+                    fmt::format("'{}' is also written for {}, with different contents", file.target.string(),
                                 first->second.first),
                     "name it by the asset: ${input.stem}");
     }
@@ -338,9 +338,9 @@ class BatchRun {
         if (!all_made) { // the outputs of assets that did not run are unknown
             warn(Diagnostic{Severity::warning,
                             "W-PRUNE",
-                            "nothing is pruned, because not all assets were made",
+                            "nothing was pruned, because not all assets succeeded",
                             {},
-                            "run the batch again when they are"});
+                            "run the batch again when all assets succeed"});
             return;
         }
         std::set<std::string> current = current_outputs(), names;
@@ -373,10 +373,10 @@ class BatchRun {
         if (names.empty()) return;
         warn(Diagnostic{Severity::warning,
                         "W-PRUNE",
-                        fmt::format("what was made of {} is not pruned: {} out of reach", list_of(names),
-                                    names.size() == 1 ? "it is" : "they are"),
+                        fmt::format("the outputs of {} were not pruned, because {} cannot be reached",
+                                    list_of(names), names.size() == 1 ? "it" : "they"),
                         {},
-                        "is the disk there?"});
+                        "mount the disk or folder that has the inputs"});
     }
 
     static std::string list_of(const std::vector<std::string>& names) {

@@ -160,8 +160,8 @@ int code_of(const Console& console, Body&& body) {
                 code_of(console, [&] { return run_all(pipelines, *planned, options, console, on_written); });
         console.event({{"level", "info"}, {"event", "watch"}, {"number", number}, {"exit_code", code}});
         if (!console.json)
-            console.say(
-                fmt::format("exit code {}; watching {}, Ctrl-C ends", code, counted(watch.size(), "file")));
+            console.say(fmt::format("exit code {}; watching {}; press Ctrl-C to stop", code,
+                                    counted(watch.size(), "file")));
         const auto changed = watch.wait();
         console.say(fmt::format("{} has changed", changed.string()));
         last = std::move(watch);

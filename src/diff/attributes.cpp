@@ -73,7 +73,7 @@ void compare_values(const Comparing& with, const std::string& name, const FoundA
                                   });
     if (!alike)
         return with.leave("attributes", name, a.about(), b.about(),
-                          fmt::format("values of {} and {} elements", a.elements, b.elements));
+                          fmt::format("the numbers of elements differ, {} and {}", a.elements, b.elements));
     double most = 0;
     std::size_t where = 0, before = 0;
     for (std::size_t k = 0; k < a.arrays.size(); ++k) {

@@ -63,7 +63,7 @@ void compare_contents(const Comparing& with, io::MaterialContents& of_a, io::Mat
         if (a.is_null() != b.is_null()) {
             if (!is_plain(a.is_null() ? b : a))
                 with.leave("materials", name + " as glTF", !a.is_null(), !b.is_null(),
-                           "only one is of a glTF");
+                           "only one file is glTF");
             return;
         }
         if (a.is_null()) return;
@@ -139,10 +139,10 @@ void compare_places(const Comparing& with) {
     ProgressSteps steps(std::vector<double>(all.size(), 1));
     for (const Index material : all) {
         const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
-        with.add(
-            "materials", material == none ? "faces of none" : fmt::format("{} faces", material),
-            finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
-            fmt::format("how far {} are from those of the other file", elements_of(with, "faces", material)));
+        with.add("materials", material == none ? "faces of none" : fmt::format("{} faces", material),
+                 finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
+                 fmt::format("distance of {} from the same material in the other file",
+                             elements_of(with, "faces", material)));
         with.result.lines.back().of_places = true;
         steps.next();
     }
@@ -167,10 +167,10 @@ void compare_places_of_lines(const Comparing& with) {
     for (const Index material : all) {
         const LineShape &x = of_a[material], &y = of_b[material];
         const double forward = x.distance_to(y), backward = y.distance_to(x);
-        with.add(
-            "materials", material == none ? "lines of none" : fmt::format("{} lines", material),
-            finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
-            fmt::format("how far {} are from those of the other file", elements_of(with, "lines", material)));
+        with.add("materials", material == none ? "lines of none" : fmt::format("{} lines", material),
+                 finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
+                 fmt::format("distance of {} from the same material in the other file",
+                             elements_of(with, "lines", material)));
         with.result.lines.back().of_places = true;
     }
 }

@@ -31,7 +31,7 @@ std::string extras(const Step& step) {
     std::string out;
     if (!step.only.patterns.empty()) out += fmt::format("  only [{}]", list_of(step.only.patterns));
     if (step.when)
-        out += step.when->known ? (*step.when->known ? "" : "  skipped: when does not hold")
+        out += step.when->known ? (*step.when->known ? "" : "  skipped: its condition (when) is false")
                                 : fmt::format("  when {{{}}}", assertions_text(step.when->predicates));
     if (step.ensure) out += fmt::format("  ensure {{{}}}", contract_text(*step.ensure));
     if (step.join) out += "  join";

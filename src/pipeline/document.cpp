@@ -259,7 +259,7 @@ class Builder : public YAML::EventHandler {
         if (key.text == "<<" && !key.quoted) {
             value.mark = key.mark;
             if (!frame.merges.empty())
-                problems_.add(key.mark, "E-DUPLICATE", "the key '<<' is there twice",
+                problems_.add(key.mark, "E-DUPLICATE", "the key '<<' occurs twice",
                               "several maps are merged by <<: [*a, *b]");
             frame.merges.push_back(std::move(value));
             return;
@@ -269,7 +269,7 @@ class Builder : public YAML::EventHandler {
             frame.value.entries.push_back({std::move(key.text), key.mark, std::move(value)});
             return;
         }
-        problems_.add(key.mark, "E-DUPLICATE", fmt::format("the key '{}' is there twice", key.text),
+        problems_.add(key.mark, "E-DUPLICATE", fmt::format("the key '{}' occurs twice", key.text),
                       fmt::format("the first is at {}", to_string(frame.value.entries[at->second].key_mark)));
     }
 

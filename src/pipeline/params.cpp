@@ -175,7 +175,7 @@ class Params {
     void add(const Value::Entry& entry, Json& json) {
         if (!is_variable_name(entry.key))
             problems_.add(entry.key_mark, "E-PARAM", fmt::format("'{}' cannot name a parameter", entry.key),
-                          "a name is made of letters, digits, _ and -, and begins with a letter");
+                          "a name consists of letters, digits, _ and -, and begins with a letter");
         static const Declaration declaration = param_declaration();
         ParamOptions options;
         const bool good = declaration.parse(entry.value, &options, entry.key, problems_, {"default"}) &&
@@ -453,7 +453,7 @@ Scope fragment_params(const Value& document, const Value& given, const PlanSetti
     for (const auto& entry : given.entries)
         if (!find_variable(all.scope, entry.key))
             problems.add(entry.key_mark, "E-PARAM",
-                         fmt::format("what is included has no parameter '{}'", entry.key),
+                         fmt::format("the included file has no parameter '{}'", entry.key),
                          no_such_param(entry.key, all.scope));
     return std::move(all.scope);
 }

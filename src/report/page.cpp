@@ -161,7 +161,7 @@ void Page::after(const PageStep& step, const Scene& scene, StageRecord& stage, s
 
 void Page::set_loaded(const PageStep& step, const Scene& scene) {
     if (!step.loads && !step.moves) return;
-    loaded_ = reference_to(scene, step.loads ? std::string("the scene as loaded")
+    loaded_ = reference_to(scene, step.loads ? std::string("the input")
                                              : fmt::format("the scene after '{}'", step.name));
     if (with_pictures_) loaded_->shape = shape_histograms(scene);
 }
@@ -194,11 +194,11 @@ void Page::add_result(const std::string& name, const Scene& scene) {
         view.input_faces = loaded_->faces;
         auto now = std::make_shared<const Shown>(scene);
         if (now->surface().size() == 0 || loaded_->shown->surface().size() == 0)
-            view.no_deviation = "There are no distances: one of the scenes is empty.";
+            view.no_deviation = "No distances were measured, because one of the scenes is empty.";
         else if (now->is_same(*loaded_->shown))
-            view.no_deviation = fmt::format("Its surface is that of {}.", loaded_->name);
+            view.no_deviation = fmt::format("The surface is unchanged from {}.", loaded_->name);
         else if (shown_ && now->is_same(*shown_) && shown_from_->is_same(*loaded_->shown)) {
-            view.no_deviation = fmt::format("How far it is from {} is shown {}.", loaded_->name, shown_at_);
+            view.no_deviation = fmt::format("The distances from {} are shown {}.", loaded_->name, shown_at_);
             view.same_as = shown_stage_;
             view.differs = true;
         } else {
@@ -252,7 +252,7 @@ bool Page::differs(const std::string& name) const {
 }
 
 void Page::at_end(const Scene& scene) {
-    if (record_.views.empty()) add_result("the scene at the end", scene);
+    if (record_.views.empty()) add_result("the final scene", scene);
 }
 
 } // namespace facetmill::report

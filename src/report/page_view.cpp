@@ -23,7 +23,7 @@ void PageView::before(const Scene& scene) {
     has_before_ = true;
     if (scene.face_count() == 0 && scene.parts.empty()) return;
     if (page_.camera()) viewed_.stand_as(*page_.camera(), page_.camera_up());
-    viewed_.add_before(scene, "as loaded", materials(scene));
+    viewed_.add_before(scene, "the input", materials(scene));
 }
 
 void PageView::written(const Scene& scene, const std::string& path) {
@@ -46,7 +46,7 @@ void PageView::failed(const std::string& name, const Scene& scene) {
 }
 
 void PageView::at_end(const Scene& scene) {
-    if (!any_after_) add(scene, "the scene at the end");
+    if (!any_after_) add(scene, "the final scene");
 }
 
 } // namespace facetmill::report

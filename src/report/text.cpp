@@ -52,7 +52,7 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, Painted& 
                       told = form == Form::report || all <= most_lines + 1 ? all : most_lines;
     for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, stage.said[i]);
     if (told < all)
-        out += fmt::format("{}  and {} more lines, which --report run.txt has\n", lead, grouped(all - told));
+        out += fmt::format("{}  and {} more lines (--report run.txt lists all)\n", lead, grouped(all - told));
     if (form == Form::terminal) return;
     for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }

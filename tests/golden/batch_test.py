@@ -181,8 +181,8 @@ class Batch(Case):
         self.write("in/A.off", tetrahedron())
         run = self.batch(expect=2)
         self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
-        self.assertIn("one file where case does not count", run.stderr)
-        self.assertIn("differ in the case of letters only", run.stderr)
+        self.assertIn("the same file if case is ignored", run.stderr)
+        self.assertIn("differ only in case", run.stderr)
         (self.dir / "in/A.off").rename(self.dir / "in/a.ply")
         run = self.batch("--input", "in/**/*", expect=2)
         self.assertIn("is written for in/a.off and for in/a.ply", run.stderr)
@@ -252,12 +252,12 @@ class Batch(Case):
     def test_prune_removes_nothing_of_what_is_out_of_reach(self):
         self.batch()
         self.write("list", "")
-        self.assertIn("names no file", self.batch("--inputs-from", "list", "--prune", expect=3).stderr)
+        self.assertIn("lists no files", self.batch("--inputs-from", "list", "--prune", expect=3).stderr)
         (self.dir / "in").rename(self.dir / "elsewhere")  # as a disk that is not mounted
-        self.assertIn("is its disk there?", self.batch("--prune", expect=3).stderr)
+        self.assertIn("mount its disk if it has one", self.batch("--prune", expect=3).stderr)
         self.assertIn("'in' is missing", self.batch("--input", "in/a.off", "--prune", expect=3).stderr)
         (self.dir / "in").mkdir()  # its mount point
-        self.assertIn("is its disk there?", self.batch("--prune", expect=3).stderr)
+        self.assertIn("mount its disk if it has one", self.batch("--prune", expect=3).stderr)
         self.assertEqual(len(self.written()), 6)
         (self.dir / "in").rmdir()
         (self.dir / "elsewhere").rename(self.dir / "in")

@@ -223,7 +223,7 @@ class Keys(Cache):
         scan = self.dir / "scan.ply"
         shutil.copy(SCAN, scan)
         lines = self.explained(scan=scan)
-        self.assertEqual(lines[0], "load runs: no earlier run with these outputs is known")
+        self.assertEqual(lines[0], "load runs: no earlier run wrote these outputs")
         self.assertEqual(lines[3:], ["validate: runs every time", "write: runs every time"])
         self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[:3],
                          [*self.CACHED[:2], "simplify reruns: ratio 50% -> 40%"])
@@ -232,7 +232,7 @@ class Keys(Cache):
         self.assertIn("relax reruns: iterations 1 -> 2", lines[1])
         self.assertIn("lambda", lines[1])
         self.write("p.yaml", PIPELINE.replace("relax: 1", "relax: {iterations: 0x2, lambda: 0.5}"))
-        self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[1], "relax reruns: its options are written in another way")
+        self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[1], "relax reruns: its options are written differently")
         self.assertEqual(lines[2], "simplify reruns: the scene before it changed")
         data = bytearray(scan.read_bytes())
         data[data.index(b"end_header\n") + 11] ^= 1  # the last bit of a coordinate

@@ -164,8 +164,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "      ^~~~~~~~\n"
          "  hint: begin with load: FILE"},
         {stages("  - test-write: o.glb\n  - branch:\n      far: [test-write: ./O.glb]\n"),
-         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are one file where case does not "
-         "count\n"
+         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are the same file if case is ignored\n"
          "        far: [test-write: ./O.glb]\n"
          "                          ^~~~~~~\n"
          "  hint: the first is at p.yaml:4:17"},
@@ -226,7 +225,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
 TEST_CASE("a mesh in the place of a pipeline is told from one", "[pipeline]") {
     for (const std::string text : {"solid a\nfacet normal 0 0 1\n", "glTF\x02"})
         CHECK(planned(text, {}, "a.stl")
-                  .problems.ends_with("hint: is this a mesh? facetmill info a.stl tells what it holds, "
+                  .problems.ends_with("hint: is this a mesh? facetmill info a.stl shows its contents, "
                                       "facetmill pipe load a.stl ! ... works on it"));
 }
 
@@ -664,5 +663,5 @@ TEST_CASE("a list is not compared, and stands in no text", "[pipeline]") {
     const std::string compared = with("  - test-cut: 3\n    when: ${a} == 1\n");
     CHECK(compared.find("E-WHEN]: 'a' is a list, which is not compared") != std::string::npos);
     CHECK(compared.find("error[", compared.find("error[") + 1) == std::string::npos);
-    CHECK(with("  - test-write: \"${a}.ply\"\n").find("cannot stand inside a text") != std::string::npos);
+    CHECK(with("  - test-write: \"${a}.ply\"\n").find("cannot be used inside a text") != std::string::npos);
 }

@@ -108,7 +108,7 @@ TEST_CASE("files that collide once the parts are known fail before anything is w
     const auto record = ground.run("  - test-load: a.ply\n  - test-load: A.ply\n  - foreach: {part: \"*\"}\n "
                                    "   do: [test-write: \"${part}.txt\"]\n");
     CHECK(record.exit_code == 2);
-    CHECK(errors_of(record).find("are one file where case does not count") != std::string::npos);
+    CHECK(errors_of(record).find("are the same file if case is ignored") != std::string::npos);
     CHECK(ground.directory.names() == Names{"A.ply", "a.ply"});
 }
 

@@ -232,7 +232,7 @@ TEST_CASE("write makes triangles for readers of no other faces, and leaves the s
         CHECK(b.record.warnings.empty());
         CHECK(b.state.record.outputs.back().read_back["faces"] == 4);
         CHECK(b.record.said ==
-              std::vector<std::string>{"1 face of more than three corners written as triangles"});
+              std::vector<std::string>{"1 face with more than three corners written as triangles"});
         CHECK(b.scene.parts[0].mesh.face_count() == 2);
         CHECK_FALSE(b.scene.parts[0].changed);
     }

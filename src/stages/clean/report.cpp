@@ -36,9 +36,9 @@ void declare_part(DeclareFields<CleanedPart>& d) {
     count("removed_open_components", &C::open_components, "Removed components that stayed open.");
     count("open_component_faces", &C::open_component_faces, "Faces of the removed open components.");
     count("removed_components", &C::components, "Removed small components.");
-    count("component_faces", &C::component_faces, "Faces of the removed open components.");
+    count("component_faces", &C::component_faces, "Faces of the removed small components.");
     count("removed_inner_components", &C::inner_components, "Removed components inside others.");
-    count("inner_component_faces", &C::inner_component_faces, "Faces of the removed open components.");
+    count("inner_component_faces", &C::inner_component_faces, "Faces of the removed inner components.");
     count("isolated_vertices", &C::isolated_vertices, "Removed vertices without faces.");
     count("united_components", &C::united_components,
           "Intersecting closed components that became part of a union.");

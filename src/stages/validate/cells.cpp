@@ -29,7 +29,7 @@ void judge_cells(Assertions assertions, const SceneLimits& limits, Severity seve
     }
     if (assertions.all.empty()) return;
     if (!not_judged.empty())
-        context.say(fmt::format("judged the cells of the scene, not {}", join_texts(not_judged)));
+        context.say(fmt::format("checked the cells of the scene, not {}", join_texts(not_judged)));
     assertions = resolved(std::move(assertions), flow.outline(), context);
     Properties properties = cells::inspect_cells(*flow.partition, flow.transform, flow.means);
     properties.unit = flow.unit;

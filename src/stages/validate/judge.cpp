@@ -58,9 +58,9 @@ class Judge {
         if (judged.empty()) judge_scene(scene);
         if (s_.assertions.all.empty()) not_judged.clear();
         if (!judged.empty())
-            context_.say(fmt::format("judged as read back: {}", join_texts(judged)));
+            context_.say(fmt::format("checked the written file, read back: {}", join_texts(judged)));
         else if (!not_judged.empty())
-            context_.say(fmt::format("judged the scene, not {}", join_texts(not_judged)));
+            context_.say(fmt::format("checked the scene in memory, not {}", join_texts(not_judged)));
         finish();
         report_.fails = any_;
         return report_;

@@ -189,7 +189,7 @@ double moved_by_floats(const Scene& scene) {
 bool needs_full(double rounding, const Box& bounds, Context& context) {
     if (rounding <= tolerable_rounding * diagonal(bounds)) return false;
     context.say(fmt::format("positions are written with 64 bits, because float32 would move them by up to "
-                            "{:.2g} (precision: single does)",
+                            "{:.2g} (precision: single writes float32)",
                             rounding));
     return true;
 }

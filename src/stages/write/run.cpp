@@ -219,7 +219,7 @@ void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec
             for (Index f = 0; f < part.mesh.face_count(); ++f) larger += part.mesh.face_size(f) > 3;
     if (larger > 0)
         context.say(
-            fmt::format("{} of more than three corners written as triangles", counted(larger, "face")));
+            fmt::format("{} with more than three corners written as triangles", counted(larger, "face")));
 }
 
 } // namespace
