@@ -32,7 +32,7 @@ Scene metres() {
 write_stage::EvenGrid grid_of(const Scene& scene, int bits = 14) {
     const std::vector<int> usual(scene.parts.size(), 12);
     return write_stage::even_grid(scene, distinct_geometry(scene), usual, {bits, bits},
-                                  std::vector<bool>(scene.parts.size()));
+                                  io::part_views(scene));
 }
 
 /// The file after reading it back.
@@ -144,8 +144,9 @@ TEST_CASE("one mesh has one grid, and what moves or is turned its own", "[stages
     turned.transform = {{{0, -1, 0, 0.3}, {1, 0, 0, 0}, {0, 0, 1, 0}}};
     add(scene, larger(2));
     const std::vector<int> usual{12, 12, 12, 11};
-    const auto grid =
-        write_stage::even_grid(scene, distinct_geometry(scene), usual, {14, 14}, {false, false, false, true});
+    auto views = io::part_views(scene);
+    views[3].animated = true;
+    const auto grid = write_stage::even_grid(scene, distinct_geometry(scene), usual, {14, 14}, views);
     CHECK(grid.lattices[0].step == grid.lattices[1].step);
     CHECK(grid.lattices[1].step * 4 < 5.0 / 16383); // the larger one's
     CHECK(grid.lattices[2].origin == Vec3{0, 0, 0});

@@ -1,6 +1,7 @@
 #include "stages/optimize/join.hpp"
 
 #include "geometry/edit/equal_wedges.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/transform.hpp"
 
 #include <algorithm>

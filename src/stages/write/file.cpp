@@ -255,7 +255,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
         as_shared(s.part_bits, shapes);
         if (grid == Grid::even) {
             const BitLimits limits{usual, limit.value_or(usual), s.draco.on};
-            EvenGrid even = even_grid(scene, shapes, s.part_bits, limits, io::animated_parts(scene));
+            EvenGrid even = even_grid(scene, shapes, s.part_bits, limits, views);
             s.part_bits = std::move(even.bits);
             s.lattices = std::move(even.lattices);
         }

@@ -133,12 +133,14 @@ int bits_for(double length, double step, int most) {
 } // namespace
 
 EvenGrid even_grid(const Scene& scene, const DistinctParts& shapes, const std::vector<int>& usual,
-                   const BitLimits& limits, const std::vector<bool>& left) {
+                   const BitLimits& limits, const std::vector<io::PartView>& views) {
     EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
     const Box world = scene.bounds();
-    const double whole = step_of_scene(scene, limits.usual);
+    const double whole = step_of_scene(io::drawn_bounds(scene, views), limits.usual);
     if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
-    const std::vector<bool> moves = with_shared_meshes(scene, left);
+    std::vector<bool> animated(scene.parts.size());
+    for (std::size_t i = 0; i < animated.size(); ++i) animated[i] = views[i].animated;
+    const std::vector<bool> moves = with_shared_meshes(scene, std::move(animated));
     std::map<std::pair<std::size_t, bool>, std::vector<std::size_t>> users; // the parts of each shape
     for (std::size_t i = 0; i < scene.parts.size(); ++i) users[{shapes.first[i], moves[i]}].push_back(i);
     for (const auto& [key, parts] : users) {

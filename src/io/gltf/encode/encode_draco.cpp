@@ -124,6 +124,7 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     primitive["attributes"] = made["attributes"];
     primitive["indices"] = made["indices"];
     if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
+    drop_baseless_targets(builder, primitive);
     primitive["extensions"]["KHR_draco_mesh_compression"] =
         object_of("bufferView", made["extensions"]["KHR_draco_mesh_compression"]["bufferView"], "attributes",
                   made["extensions"]["KHR_draco_mesh_compression"]["attributes"]);

@@ -152,6 +152,40 @@ std::vector<std::size_t> DocumentOptimizer::merge_equal(bool keep_names) {
     return first;
 }
 
+namespace {
+
+/// [accessors] the kinds of use: the validator forbids an accessor with several.
+std::vector<std::set<char>> accessor_uses(const Json& document) {
+    std::vector<std::set<char>> uses(count_of(document, "accessors"));
+    const auto use = [&](const Json& owner, const char* key, char kind) {
+        if (const auto a = index_at(owner, key, uses.size())) uses[*a].insert(kind);
+    };
+    const auto members = [&](const Json& owner, const Json::json_pointer& key, char kind) {
+        if (owner.contains(key) && owner[key].is_object())
+            for (const auto& [name, value] : owner[key].items()) use(owner[key], name.c_str(), kind);
+    };
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
+        for (const Json& primitive : document["meshes"][m]["primitives"]) {
+            use(primitive, "indices", 'i');
+            members(primitive, Json::json_pointer("/attributes"), 'v');
+            if (!primitive.contains("targets")) continue;
+            for (const Json& target : primitive["targets"]) members(target, Json::json_pointer(), 'v');
+        }
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a)
+        for (const Json& sampler : document["animations"][a]["samplers"]) {
+            use(sampler, "input", 't');
+            use(sampler, "output", 'o');
+        }
+    for (std::size_t s = 0; s < count_of(document, "skins"); ++s)
+        use(document["skins"][s], "inverseBindMatrices", 'b');
+    for (std::size_t n = 0; n < count_of(document, "nodes"); ++n)
+        members(document["nodes"][n], Json::json_pointer("/extensions/EXT_mesh_gpu_instancing/attributes"),
+                'n');
+    return uses;
+}
+
+} // namespace
+
 std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
     if (may_name_accessors(json_)) return 0;
     std::vector<Bytes> buffers = document_.buffers;
