@@ -536,6 +536,26 @@ TEST_CASE("limits that a param's type does not have, or that nothing meets, are 
     CHECK(problem("{type: integer, min: 2, max: 5, default: 3}") == "");
 }
 
+TEST_CASE("limits of written files need a write before them", "[pipeline]") {
+    const auto problem = [](const std::string& stages) {
+        const std::string all = planned("facetmill: 1\nstages:\n  - load: a.ply\n" + stages).problems;
+        return all.substr(0, all.find('\n'));
+    };
+    const std::string check = "  - validate: {closed: true, limits: {bytes: 1kB}}\n",
+                      refusal =
+                          "error[E-LIMITS]: validate: 'limits.bytes' limits written files, and no file is "
+                          "written before it";
+    CHECK(problem(check) == "p.yaml:4:46: " + refusal);
+    CHECK(problem("  - write: b.ply\n" + check) == "");
+    CHECK(problem("  - validate: {limits: {parts: 1}}\n") == "");
+    CHECK(problem("  - write: b.ply\n    when: false\n" + check) == "p.yaml:6:46: " + refusal);
+    CHECK(problem("  - branch: {near: [{write: b.ply}], far: [{simplify: 10%}]}\n" + check) == "");
+    CHECK(problem("  - branch: {near: [{write: b.ply}], far: [{validate: {limits: {bytes: 1kB}}}]}\n")
+              .find(refusal) != std::string::npos);
+    CHECK(problem("  - foreach: {lod: [50%]}\n    do: [{simplify: \"${lod}\"}, {write: b.ply}, {validate: "
+                  "{limits: {draw_calls: 1}}}]\n") == "");
+}
+
 TEST_CASE("items and keys that say nothing are refused with their place", "[pipeline]") {
     CHECK(planned("facetmill: 1\nstages:\n  - test-load: a.ply\n  -\n")
               .problems.find("p.yaml:4:3: error[E-TYPE]") == 0);
