@@ -110,7 +110,7 @@ TEST_CASE("clean refuses options that make no sense together", "[stages]") {
         return failure([&] { run_stage("clean", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{weld: near}") ==
-          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | tolerance: 0.01% (or 0.1mm)");
+          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | give it: tolerance: 0.01%");
     CHECK(
         refusal("{tolerance: 1}") ==
         "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to near "
