@@ -5,6 +5,7 @@
 #include "base/text/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "stage/bind_pose.hpp"
 #include "stage/crossing_faces.hpp"
 
 #include <fmt/format.h>
@@ -123,6 +124,10 @@ void check_deviation(const DeviationLimits& limits, const LimitMarks& where, con
                      const Scene& scene, Context& context) {
     const DeviationResult measured =
         deviation(before, surface_or_points_of(scene, filled_surface), limits.settings());
+    std::vector<std::string> moving;
+    for (const Part& part : scene.parts)
+        if (part.changed && has_poses(part)) moving.push_back(part.name);
+    warn_of_rest_pose("ensure", moving, context);
     name_fans(scene, context);
     context.result()["deviation"] = deviation_json(measured);
     const auto check = [&](std::size_t which, const std::string& name, const std::optional<Length>& limit,

@@ -27,6 +27,11 @@ const RegisterMessages stage_messages{
      "lines.",
      "Leave clouds out with the common key `only`, as in `only: \"!points\"`. `crop`, `clip`, `tile`, "
      "`transform` and `merge` work on points."},
+    {"W-REST-POSE",
+     "A limit of the deviation, such as `max_error`, holds for the rest pose of a skinned or morphed part. "
+     "Where joints "
+     "bend the surface or morph targets move it, the deviation may be much larger.",
+     "Use `simplify` with a ratio for parts that move, as in `simplify: 50%`, and compare their poses."},
     {"W-SNAPPED",
      "`clip` or `crop` treats vertices near the plane or the outline as on it. The part is so far from the "
      "origin that its 32-bit floats are rounded visibly, by up to a quarter of a metre in UTM.",

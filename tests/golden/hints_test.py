@@ -93,6 +93,29 @@ def gltf(uri=None, normals=None, weights=None, **more):
     return json.dumps(document)
 
 
+def morphing(n=4):
+    """A flat grid whose only morph target bends it."""
+    points, faces = grid(n, lambda x, y: 0)
+    data = b"".join(struct.pack("<3f", *p) for p in points) + b"".join(struct.pack("<3f", 0, 0, p[0] ** 2) for p in points)
+    data += b"".join(struct.pack("<3H", *face) for face in faces)
+    size = 12 * len(points)
+
+    def accessor(view, kind, count, high):
+        return {"bufferView": view, "componentType": 5123 if kind == "SCALAR" else 5126, "count": count, "type": kind,
+                **({"min": [0, 0, 0], "max": high} if high else {})}
+
+    return json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 2, "targets": [{"POSITION": 1}]}]}],
+        "accessors": [accessor(0, "VEC3", len(points), [n, n, 0]), accessor(1, "VEC3", len(points), [0, 0, n * n]),
+                      accessor(2, "SCALAR", 3 * len(faces), None)],
+        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": size},
+                        {"buffer": 0, "byteOffset": size, "byteLength": size},
+                        {"buffer": 0, "byteOffset": 2 * size, "byteLength": 6 * len(faces)}],
+        "buffers": [{"uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode(),
+                     "byteLength": len(data)}]})
+
+
 def islands(n=8):
     points, faces = grid(n, lambda x, y: 0.1 * math.sin(x))
     lines = [f"v {x} {y} {z}" for x, y, z in points]
@@ -127,6 +150,7 @@ FILES = {
     "wrong.obj": off(box()), "stated.off": "# unit: mm\n" + off(box()), "tiny.off": off(box(size=(1e-120,) * 3)),
     "arrow.off": off(([(0, 0, 0), (2, 0, 0), (.5, .5, 0), (0, 2, 0)], [(0, 1, 2, 3)])),
     "islands.obj": islands(), "utm.ply": ply(*far_grid()),
+    "morph.gltf": morphing(),
     "camera.gltf": gltf(cameras=[{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]),
     "moving.gltf": gltf(animations=[{"samplers": [{"input": 0, "output": 0}], "channels": []}]),
     "plane.off": off(grid(3, lambda x, y: 0)), "far.ply": ply(box((1e6 + .13, .13, .17), (.7, .7, .7))[0], box()[1], "double"),
@@ -310,6 +334,8 @@ FOLLOWED = [
     ("W-GEOCENTRIC", "pipe load utm.ply --unit m --up z ! write t/tileset.json", "transform --centre",
      "pipe load utm.ply --unit m --up z ! transform --centre ! write t/tileset.json"),
     ("W-MERGED", "pipe load '{animated,camera}.gltf' ! write o.glb", "load 'camera.gltf' by itself", "pipe load camera.gltf ! write o.glb"),
+    ("W-REST-POSE", "pipe load morph.gltf ! simplify --max_error 5% ! write o.glb", "simplify 50%",
+     "pipe load morph.gltf ! simplify 50% ! write o.glb"),
     ("W-ROUNDED", "pipe load far.ply ! write o.stl", "PLY, OBJ or OFF with --precision full", "pipe load far.ply ! write o.ply --precision full"),
     ("W-FAR", "pipe load '{two,stray}.off' ! merge ! render r.png", "clean --components.keep 1",
      "pipe load '{two,stray}.off' ! merge ! clean --components.keep 1 ! render r.png"),

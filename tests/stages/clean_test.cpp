@@ -112,10 +112,11 @@ TEST_CASE("clean refuses options that make no sense together", "[stages]") {
         return failure([&] { run_stage("clean", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{weld: near}") ==
-          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | tolerance: 0.01% (or 0.1mm)");
-    CHECK(refusal("{tolerance: 1}") ==
-          "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to "
-          "near | set weld, stitch or t_junctions to near");
+          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | give it: tolerance: 0.01%");
+    CHECK(
+        refusal("{tolerance: 1}") ==
+        "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to near "
+        "| weld: near, stitch: near or t_junctions: near");
     CHECK(refusal("{components: {}}") ==
           "usage [E-MISSING] test.yaml:1:1: clean: components needs a limit for small components | "
           "components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");

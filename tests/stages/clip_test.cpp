@@ -231,14 +231,15 @@ TEST_CASE("clip says when everything or nothing stays, and names open contours",
 }
 
 TEST_CASE("clip refuses what is no plane", "[stages]") {
-    CHECK(
-        clip_refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
-        "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
-    CHECK(
-        clip_refusal(numbers({"0", "0", "0", "1"})) ==
-        "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
+    CHECK(clip_refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
+          "usage [E-PLANE] the plane's normal is zero, so it has no direction | give a direction: plane: "
+          "{normal: [0, 0, 1]}");
+    CHECK(clip_refusal(numbers({"0", "0", "0", "1"})) ==
+          "usage [E-PLANE] the plane's normal is zero, so it has no direction | give a direction: plane: "
+          "{normal: [0, 0, 1]}");
     CHECK(clip_refusal(map({{"plane", map({{"through", text("centre")}})}})) ==
-          "usage [E-PLANE] a plane needs a normal or coefficients | for example normal: [0, 0, 1]");
+          "usage [E-PLANE] a plane needs a normal or coefficients | give a direction: plane: {normal: [0, 0, "
+          "1]}");
     CHECK(clip_refusal(text("w=3")) ==
           "usage [E-TYPE] expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, "
           "[A, B, C, D]), found 'w=3'");

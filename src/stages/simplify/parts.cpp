@@ -2,8 +2,7 @@
 
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
-#include "geometry/edit/moved.hpp"
-#include "io/gltf/gltf.hpp"
+#include "stage/bind_pose.hpp"
 
 #include <fmt/format.h>
 
@@ -133,7 +132,8 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;
     std::vector<Limited> limited;
     std::vector<Part> coarser;
-    // Entries take a kilobyte each, so growing the list would copy much data.
+    std::vector<std::string> moving; // parts whose poses max_error does not bound
+    // An entry takes a kilobyte, so growing the list would copy several times as much.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
         scene.parts[number].changed = true;
@@ -146,6 +146,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
             part.mesh = std::exchange(r.mesh, {});
             context.attribute_changes(part, r.changes);
             warn_of_stop(part, r, {asks_for_less(o, all, i), has_target}, context);
+            if (o.max_error && r.faces_after < r.faces_before && has_poses(part)) moving.push_back(part.name);
             if (r.stop == Stop::max_quadric_error)
                 limited.push_back({part.name, r.faces_before, r.faces_after});
             if (levels[i].surface && !o.lods && !pose.enlarges(number)) // lods add parts to the scene
@@ -159,6 +160,7 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     facetmill::simplify_parts(scene, settings, take);
     pose.leave();
     for (Part& part : coarser) scene.parts.push_back(std::move(part));
+    warn_of_rest_pose("max_error", moving, context);
     if (o.max_quadric_error) warn_of_limit(limited, *o.max_quadric_error, context);
     return scene;
 }

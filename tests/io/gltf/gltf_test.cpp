@@ -206,17 +206,16 @@ TEST_CASE("glTF that must not be read is refused with the place", "[io]") {
     const std::string head = R"({"asset":{"version":"2.0"},)";
     CHECK(refuse("{") == "malformed [E-JSON] test: not valid JSON at byte 2");
     CHECK(refuse(R"({"asset":{"version":"1.0"}})") == "malformed [E-VERSION] test: asset.version: expected "
-                                                      "glTF 2.x, found \"1.0\" | gltf-pipeline writes glTF "
-                                                      "1.0 as 2.0");
+                                                      "glTF 2.x, found \"1.0\" | convert it to glTF 2.0: "
+                                                      "npx gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(R"({"asset":{"version":"3.0"}})") ==
           "malformed [E-VERSION] test: asset.version: expected glTF 2.x, found \"3.0\"");
     CHECK(refuse(R"({"meshes":{"a":{"primitives":[]}}})") ==
-          "malformed [E-VERSION] test: expected glTF 2.x, found glTF 1.0 | gltf-pipeline writes glTF 1.0 as "
-          "2.0");
+          "malformed [E-VERSION] test: expected glTF 2.x, found glTF 1.0 | convert it to glTF 2.0: npx "
+          "gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(std::string_view("glTF\1\0\0\0\x18\0\0\0\4\0\0\0\0\0\0\0{}  ", 24)) ==
-          "malformed [E-VERSION] test: at byte 4: expected GLB version 2, found version 1 | gltf-pipeline "
-          "writes glTF "
-          "1.0 as 2.0");
+          "malformed [E-VERSION] test: at byte 4: expected GLB version 2, found version 1 | convert it to "
+          "glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(head + R"("extensionsRequired":["XX_other"]})") ==
           "malformed [E-EXTENSION] test: extensionsRequired[0]: the extension \"XX_other\" is required and "
           "not supported");
