@@ -517,6 +517,7 @@ int sniff_glb(Span bytes) { return is_glb(bytes) ? 2 : 0; }
 /// may be glTF.
 int sniff_gltf(Span bytes) {
     const std::string_view text = without_byte_order_mark(as_text(bytes));
+    if (is_tileset(text)) return 0;
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{') return 0;
     constexpr std::size_t near = 65536;
