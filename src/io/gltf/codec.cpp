@@ -444,11 +444,15 @@ void warn_of_losses(Patch& patch) {
     }
 }
 
-/// A copy of the scene with NaN replaced in its attributes, because glTF forbids NaN; empty without NaN.
-std::optional<Scene> without_nan(const Scene& given, Written& written) {
-    const auto has = [](const Part& part) { return has_nan(part.mesh); };
+/// A copy of the scene with colours of faces moved to wedges, and with NaN replaced in its attributes,
+/// because glTF forbids NaN; empty without either.
+std::optional<Scene> fitted_scene(const Scene& given, Written& written) {
+    const auto has = [](const Part& part) {
+        return has_nan(part.mesh) || has_colours_of_faces_only(part.mesh);
+    };
     if (std::none_of(given.parts.begin(), given.parts.end(), has)) return {};
     Scene scene = given;
+    for (Part& part : scene.parts) move_colours_to_wedges(part.mesh);
     NanCounts all;
     for (Part& part : scene.parts) {
         for (const auto& [name, count] : nan_of_primitives(part.mesh)) all[name] += count;
@@ -462,8 +466,8 @@ std::optional<Scene> without_nan(const Scene& given, Written& written) {
 
 Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Written written;
-    const auto zeroed = without_nan(given, written);
-    const Scene& scene = zeroed ? *zeroed : given;
+    const auto fitted = fitted_scene(given, written);
+    const Scene& scene = fitted ? *fitted : given;
     BaseDocument found = base_document(scene);
     const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
@@ -491,6 +495,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
     warn_of_losses(patch);
+    warn_of_dropped(written, scene, "glTF");
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
     const Textures textures = settings.textures != Textures::automatic ? settings.textures
                               : binary                                 ? Textures::embed
