@@ -428,6 +428,20 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
     if (!buffer.empty()) patch.written.files.push_back({name, std::move(buffer)});
 }
 
+/// Gives the asset the copyright and the extras of the other documents that it lacks.
+void keep_assets(Patch& patch) {
+    Json& asset = patch.builder.json()["asset"];
+    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
+        if (static_cast<int>(d) == patch.base) continue;
+        const Json other = parse_document(patch.scene.documents[d]->json);
+        const auto from = other.find("asset");
+        if (from == other.end() || !from->is_object()) continue;
+        if (from->contains("copyright") && !asset.contains("copyright"))
+            asset["copyright"] = (*from)["copyright"];
+        if (from->contains("extras") && !asset.contains("extras")) asset["extras"] = (*from)["extras"];
+    }
+}
+
 /// Warns that only the meshes and materials of a second document are written.
 void warn_of_losses(Patch& patch) {
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
@@ -494,6 +508,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
+    keep_assets(patch);
     warn_of_losses(patch);
     warn_of_dropped(written, scene, "glTF");
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
