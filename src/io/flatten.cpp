@@ -1,7 +1,9 @@
 #include "io/flatten.hpp"
 
 #include "base/json.hpp"
+#include "base/ordered_set.hpp"
 #include "base/text/words.hpp"
+#include "io/attributes.hpp"
 #include "mesh/primitives_in_use.hpp"
 
 #include <algorithm>
@@ -274,17 +276,36 @@ void warn_of_names(Written& written, const Scene& scene, const char* format, boo
 
 bool is_missed(const Attribute& attribute) {
     return attribute.role == Role::uv || attribute.role == Role::colour ||
-           attribute.role == Role::morph_vector ||
-           (attribute.role == Role::generic && attribute.domain != Domain::face);
+           attribute.role == Role::morph_vector || attribute.role == Role::generic ||
+           attribute.name == stl_attribute;
 }
 
-void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format) {
+void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format,
+                        const char* hint) {
     if (!names.empty())
         written.warnings.push_back({Severity::warning,
                                     "W-ATTRIBUTE",
                                     fmt::format("{} has no place for attributes: {}", format, some_of(names)),
                                     {},
-                                    "glTF keeps them: write .glb"});
+                                    hint});
+}
+
+void warn_of_dropped(Written& written, const Scene& scene, const char* format, bool uvs) {
+    OrderedSet<std::string> names;
+    bool faces = false;
+    for (const AttributeChange& change : written.changes) {
+        if (change.kind != AttributeChange::Kind::dropped) continue;
+        for (const Part& part : scene.parts) {
+            const Attribute* a = part.mesh.find(change.attribute, change.domain);
+            if (!a || !is_missed(*a) || (a->role == Role::uv && !uvs)) continue;
+            names.add(a->domain == Domain::face ? a->name + " of faces" : a->name);
+            faces |= a->domain == Domain::face;
+            break;
+        }
+    }
+    warn_of_attributes(written, names.all(), format,
+                       faces || std::string_view(format) == "glTF" ? "PLY keeps them: write .ply"
+                                                                   : "glTF keeps them: write .glb");
 }
 
 void dropped(Written& written, const Attribute& attribute, std::string why) {

@@ -375,6 +375,20 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
     if (!buffer.empty()) patch.written.files.push_back({name, std::move(buffer)});
 }
 
+/// Gives the asset the copyright and the extras of the other documents that it lacks.
+void keep_assets(Patch& patch) {
+    Json& asset = patch.builder.json()["asset"];
+    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
+        if (static_cast<int>(d) == patch.base) continue;
+        const Json other = parse_document(patch.scene.documents[d]->json);
+        const auto from = other.find("asset");
+        if (from == other.end() || !from->is_object()) continue;
+        if (from->contains("copyright") && !asset.contains("copyright"))
+            asset["copyright"] = (*from)["copyright"];
+        if (from->contains("extras") && !asset.contains("extras")) asset["extras"] = (*from)["extras"];
+    }
+}
+
 /// Warns that only the meshes and materials of a second document are written.
 void warn_of_losses(Patch& patch) {
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
@@ -392,11 +406,15 @@ void warn_of_losses(Patch& patch) {
     }
 }
 
-/// A copy of the scene with NaN replaced in its attributes, because glTF forbids NaN; empty without NaN.
-std::optional<Scene> without_nan(const Scene& given, Written& written) {
-    const auto has = [](const Part& part) { return has_nan(part.mesh); };
+/// A copy of the scene with colours of faces moved to wedges, and with NaN replaced in its attributes,
+/// because glTF forbids NaN; empty without either.
+std::optional<Scene> fitted_scene(const Scene& given, Written& written) {
+    const auto has = [](const Part& part) {
+        return has_nan(part.mesh) || has_colours_of_faces_only(part.mesh);
+    };
     if (std::none_of(given.parts.begin(), given.parts.end(), has)) return {};
     Scene scene = given;
+    for (Part& part : scene.parts) move_colours_to_wedges(part.mesh);
     NanCounts all;
     for (Part& part : scene.parts) {
         for (const auto& [name, count] : nan_of_primitives(part.mesh)) all[name] += count;
@@ -410,8 +428,8 @@ std::optional<Scene> without_nan(const Scene& given, Written& written) {
 
 Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Written written;
-    const auto zeroed = without_nan(given, written);
-    const Scene& scene = zeroed ? *zeroed : given;
+    const auto fitted = fitted_scene(given, written);
+    const Scene& scene = fitted ? *fitted : given;
     BaseDocument found = base_document(scene);
     const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
@@ -438,7 +456,9 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
+    keep_assets(patch);
     warn_of_losses(patch);
+    warn_of_dropped(written, scene, "glTF");
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
     const Textures textures = settings.textures != Textures::automatic ? settings.textures
                               : binary                                 ? Textures::embed
@@ -470,6 +490,7 @@ int sniff_glb(Span bytes) { return is_glb(bytes) ? 2 : 0; }
 /// Certain for a JSON object with "asset" near its beginning or end. Any other JSON object may be glTF.
 int sniff_gltf(Span bytes) {
     const std::string_view text = without_byte_order_mark(as_text(bytes));
+    if (is_tileset(text)) return 0;
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{') return 0;
     constexpr std::size_t near = 65536;

@@ -37,6 +37,7 @@ Mesh as_one(const Scene& scene, Written& written) {
         for (auto& changes : {drop_skin(mesh, "tiles have no skins"), drop_morph_targets(mesh)})
             written.changes.insert(written.changes.end(), changes.begin(), changes.end());
         apply(mesh, part.transform);
+        move_colours_to_wedges(mesh);
         append(all, mesh);
     }
     drop_unused(all);
