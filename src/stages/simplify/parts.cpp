@@ -2,6 +2,8 @@
 
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
+#include "geometry/edit/moved.hpp"
+#include "io/gltf/gltf.hpp"
 #include "stage/bind_pose.hpp"
 
 #include <fmt/format.h>
