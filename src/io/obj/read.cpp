@@ -55,7 +55,7 @@ Naming naming(const Statements& s, Event::Kind kind, const std::string& before) 
     return naming(s, kind, before, s.faces(), &Event::face);
 }
 
-/// Divides colours by 255 if they are bytes: whole numbers of which one is above 1, or a number above 2.
+/// Divides colours by 255 if they count to that.
 void scale_colours(std::vector<float>& colours) {
     float largest = 0;
     bool whole = true;
@@ -64,7 +64,7 @@ void scale_colours(std::vector<float>& colours) {
         largest = std::max(largest, c);
         whole = whole && c == std::floor(c);
     }
-    if (!(largest > (whole ? 1 : 2))) return;
+    if (!count_to_255(largest, whole)) return;
     for (float& c : colours) c = c > 255 ? 1 : c / 255; // NaN stays
 }
 
