@@ -106,7 +106,7 @@ Command pipe_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto save_to = std::make_shared<std::string>();
-                arguments.add("--save", save_to.get(), "Also writes the pipeline as a file for run.");
+                arguments.add("--save", save_to.get(), "Also saves the pipeline as a file for run.");
                 add_asset_root_option(arguments, options->asset_roots);
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);

@@ -77,7 +77,7 @@ TEST_CASE("formats of meshes refuse a document without meshes, and so does a sce
         CHECK(
             failure([&] { b.run("write", Value::scalar(std::string("a.") + name)); }) ==
             fmt::format("stage [E-EMPTY] there is nothing to write to 'a.{0}': the scene has no meshes, and "
-                        "{0} holds nothing else | nodes, cameras and animations go to glb, gltf",
+                        "{0} stores nothing else | glb, gltf can store nodes, cameras and animations",
                         name));
     }
     test::Bench b;

@@ -153,7 +153,7 @@ TEST_CASE("formats of faces only refuse point clouds, and scenes without anythin
         b.scene.parts.emplace_back().mesh.positions = {{0, 0, 0}, {1, 0, 0}};
         return failure([&] { b.run("write", given); });
     };
-    const std::string hint = " | points go to drc, glb, gltf, obj, off, ply";
+    const std::string hint = " | drc, glb, gltf, obj, off, ply can store points";
     for (const char* name : {"a.stl", "a.3mf"})
         CHECK(refusal(Value::scalar(name)) ==
               fmt::format(
@@ -204,7 +204,7 @@ TEST_CASE("formats keep points beside faces, or warn that they leave them out", 
         REQUIRE(b.record.warnings.size() == 1);
         CHECK(b.record.warnings[0].id == "W-SKIPPED");
         CHECK(b.record.warnings[0].message.ends_with(
-            "cannot hold points beside faces, so 1 part is left out: points"));
+            "cannot store points next to faces, so 1 part is skipped: points"));
         CHECK(b.scene.parts[0].mesh.vertex_count() == 4);
     }
 }

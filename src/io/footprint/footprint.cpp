@@ -302,7 +302,7 @@ FootprintRings parse_wkt(std::string_view text, const std::string& name) { retur
 namespace {
 
 [[noreturn]] void refuse_empty(const Input& input, const FootprintFile& file) {
-    std::string message = "there is no polygon in this file";
+    std::string message = "the file contains no polygon";
     for (const Diagnostic& w : file.warnings) message += ": " + w.message;
     malformed(input.name(), 0, "E-FOOTPRINT", std::move(message),
               file.can_state_unit
@@ -330,9 +330,9 @@ FootprintFile read_footprint(const Input& input) {
     if (const std::size_t repeated = remove_repeated(file.rings))
         file.warnings.push_back(
             {Severity::warning, "W-FOOTPRINT",
-             fmt::format("{} left out, since {} on another one",
+             fmt::format("{} left out, because {} another one",
                          repeated == 1 ? "1 ring is" : fmt::format("{} rings are", repeated),
-                         repeated == 1 ? "it lies" : "they lie"),
+                         repeated == 1 ? "it repeats" : "they repeat"),
              file_mark(input.name()), "delete the copies in the program that drew them"});
     return file;
 }

@@ -130,16 +130,15 @@ void warn_of_nodes_without_positions(const Source& source, const std::vector<Nod
     }
     if (count == 0) return;
     const std::string more = count > 1 ? fmt::format(" and {} more have", count - 1) : " has";
-    log.warnings.push_back(
-        {Severity::warning,
-         "W-SKIPPED",
-         fmt::format(
-             "nodes[{}]{} a mesh without positions: kept in the document as written, which stages do not "
-             "move and other formats do not get",
-             first, more),
-         {},
-         "",
-         false});
+    log.warnings.push_back({Severity::warning,
+                            "W-SKIPPED",
+                            fmt::format("nodes[{}]{} a mesh without positions. The document keeps it "
+                                        "unchanged, but stages do not move it, and other "
+                                        "formats do not contain it",
+                                        first, more),
+                            {},
+                            "",
+                            false});
 }
 
 void warn_of_breaches(const Breaches& breaches, ReadLog& log) {
@@ -226,8 +225,8 @@ void warn_without_parts(const Json& document, ReadLog& log) {
     log.warnings.push_back(
         {Severity::warning,
          "W-SKIPPED",
-         fmt::format("{} placed by no node, or without positions: kept in the document as written, and no "
-                     "stage sees {}",
+         fmt::format("{} without a node or without positions. The document stays unchanged, and stages "
+                     "ignore {}",
                      primitives == 1 ? "its only primitive is" : counted(primitives, "primitive") + " are",
                      primitives == 1 ? "it" : "them"),
          {},

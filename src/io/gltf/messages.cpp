@@ -42,8 +42,8 @@ const RegisterMessages gltf_messages{
      "Write glTF to keep the instances. `load: {path: ..., instances: expand}` makes each one a part, and "
      "`optimize: {instance: true}` makes instances of parts again."},
     {"W-LODS",
-     "You asked `write` to link levels of detail, but the scene has none, or other ones than a node's screen "
-     "coverage was made for.",
+     "You asked `write` to link levels of detail, but the scene has none. Or the levels of a node changed, "
+     "so its screen coverage was removed.",
      "Create levels of detail with `simplify: {lods: [50%, 10%]}`."},
     {"W-MANIFOLD", "EXT_mesh_manifold cannot be read or written for a part.",
      "Read the reason in the message. `clean` makes a mesh manifold."},

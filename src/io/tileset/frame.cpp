@@ -82,9 +82,8 @@ std::optional<Diagnostic> warning_of_place(const TilesetFrame& frame) {
     return Diagnostic{
         Severity::warning,
         "W-GEOCENTRIC",
-        fmt::format("the root's transform is ({}), which viewers of the globe take as geocentric "
-                    "coordinates (ECEF), about {:.0f} km {} the ground: these look projected (UTM or a "
-                    "national grid)",
+        fmt::format("the root's transform is ({}). Globe viewers read it as geocentric coordinates (ECEF), "
+                    "about {:.0f} km {} the ground, but it seems to be projected (UTM or a national grid)",
                     readable(frame.origin, ", "), std::abs(above), above < 0 ? "below" : "above"),
         {},
         "use transform: {centre: true} and place the tileset by the viewer's model matrix, or convert the "

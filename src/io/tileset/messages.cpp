@@ -9,12 +9,10 @@ const RegisterMessages tileset_messages{
      "Load the files of its tiles one by one. facetmill reads explicit and implicit tilesets of GLB files.",
      ErrorKind::malformed},
     {"W-GEOCENTRIC",
-     "A tileset has projected coordinates, such as UTM. Viewers of the globe take the root's transform as "
-     "geocentric "
-     "coordinates (ECEF), so they show the tiles far from their place.",
+     "A tileset has projected coordinates, such as UTM. Globe viewers read the root's transform as "
+     "geocentric coordinates (ECEF), so they show the tiles far from their position.",
      "Use `transform: {centre: true}` before `write`, and place the tileset by the viewer's model matrix, in "
-     "Cesium "
-     "`tileset.modelMatrix`. Or convert the coordinates to EPSG:4978 first."},
+     "Cesium `tileset.modelMatrix`. Or convert the coordinates to EPSG:4978 first."},
 };
 
 } // namespace facetmill

@@ -16,11 +16,11 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
     d.template choice<Snap>(
          "snap", snap,
          {{"auto", Snap::automatic,
-           "positions that are 32-bit floats count as on " + what +
-               " if their own rounding explains the distance: the 0.1 of an STL is not the 0.1 of a "
-               "pipeline; others within four roundings of a double"},
-          {"0", Snap::none, "only what is exactly on it does"}},
-         "What counts as on " + what + ".")
+           "32-bit float positions count as on " + what +
+               " if their own rounding explains the distance, because 0.1 in an STL differs slightly from "
+               "0.1 in a pipeline. Other positions count within four roundings of a double"},
+          {"0", Snap::none, "only exact positions count"}},
+         "The positions that count as on " + what + ".")
         .option()
         .schema = {{"enum", {"auto", "0", 0}}};
 }

@@ -48,10 +48,34 @@ surrounding rings of faces.
 A region is not changed if its replacement would open the surface, change the topology, remove half
 of a component or leave an intersection.
 
-unit_vectors: true, which is last, mends normals, tangents and joint weights that the checks
-unit_normals and weights_normalized refuse. Others keep their values.
+The search for intersections is limited.
+It is skipped if the number of overlapping bounding box pairs exceeds 33 million plus 32 per face.
+After a million unresolved pairs of intersecting faces, parts with more such pairs than faces are
+left unchanged.
 
-The attributes of remaining elements are kept. At new vertices they are interpolated, and patches
-copy the face attributes of the faces at their boundary edges. The report counts what each step did.)";
+Holes that touch at a vertex are filled separately.
+A hole stays open if its patch does not fit or would intersect other faces.
+It also stays open if the faces around it are oriented inconsistently, so use orient first.
+With self_intersections: union or all, a patch may intersect other faces, because the next union
+resolves that.
+The report lists the repairs that failed (W-CLEAN).
+
+With precision: single, vertices that share a position after the repairs are moved apart as the last
+step.
+Such vertices appear where touching solids were separated.
+They move by 2 to 256 steps of a 32-bit float at the farthest coordinate.
+No move may invert or flatten a face or make it meet another one.
+This test is exact, and vertices that fail it do not move (W-CLEAN).
+With apart: false, no vertex moves.
+
+The step unit_vectors: true runs last.
+It scales normals, tangents and joint weights that the checks unit_normals and weights_normalized
+refuse.
+Other values stay unchanged.
+
+Remaining elements keep their attributes.
+New vertices get interpolated attributes.
+Patches copy the face attributes of the faces around the hole.
+The report counts the repairs of each step.)";
 
 } // namespace facetmill::help::clean

@@ -117,24 +117,24 @@ void declare_clean(Declare<CleanOptions>& d) {
     d.option("isolated", &CleanOptions::isolated,
              "Removes vertices that no face uses. The points of point clouds are kept.")
         .also_called("remove_unreferenced remove_isolated unreferenced");
-    d.option("tolerance", &CleanOptions::tolerance, "The distance for steps that are set to near.").above(0);
+    d.option("tolerance", &CleanOptions::tolerance, "The distance for all steps that are set to near.")
+        .above(0);
     d.option("unit_vectors", &CleanOptions::unit_vectors,
              "Scales normals and tangents to length 1, and the joint weights of each wedge to the sum 1. A "
-             "normal "
-             "without a direction gets that of the faces around it.")
+             "normal without a direction is computed from the faces around it.")
         .also_called("normalize normalise normalize_weights renormalize");
     d.choice<bool>(
         "precision", &CleanOptions::single,
         {{"full", false, "64-bit floats"},
          {"single", true,
-          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there; if this "
-          "makes the first faces intersect, they are resolved as by self_intersections: all"}},
-        "The coordinates that vertices may have in their part.");
-    d.option(
-        "apart", &CleanOptions::apart,
-        "With precision: single: moves vertices that were separated at one position apart by a few steps "
-        "of 32-bit floats, so that formats and programs that merge equal positions (STL, slicers) do not "
-        "join them again.");
+          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays correct in such "
+          "files. If rounding causes the first intersections, they are resolved as by "
+          "self_intersections: all"}},
+        "The precision of vertex coordinates.");
+    d.option("apart", &CleanOptions::apart,
+             "With precision: single, moves separated vertices at the same position apart by a few steps of "
+             "32-bit floats. Formats and programs that merge equal positions, such as STL and slicers, then "
+             "keep them separate.");
 }
 
 CleanSettings clean_steps_of(const CleanOptions& o) {

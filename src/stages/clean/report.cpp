@@ -16,7 +16,7 @@ void declare_part(DeclareFields<CleanedPart>& d) {
     d.field("part", &CleanedPart::part, "The name of the part.");
     d.field(
         "changed", [](const CleanedPart& p) { return p.counts.total() + p.scaled > 0; },
-        "Whether it was changed.");
+        "Whether the part was changed.");
     const auto count = [&](const char* name, std::size_t CleanCounts::*member, const char* help) {
         d.field(
             name, [member](const CleanedPart& p) { return p.counts.*member; }, help);
@@ -58,7 +58,7 @@ void declare_part(DeclareFields<CleanedPart>& d) {
          "The largest distance that a vertex was moved apart, in the units of its part.")
         .only_when("vertices were moved apart");
     d.field("scaled", &CleanedPart::scaled, "Normals, tangents and sets of joint weights that were scaled.");
-    d.list("not_done", &CleanedPart::not_done, "The first ten repairs that were not done.", declare_not_done);
+    d.list("not_done", &CleanedPart::not_done, "The first ten repairs that failed.", declare_not_done);
 }
 
 } // namespace

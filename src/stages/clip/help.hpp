@@ -6,15 +6,20 @@ namespace facetmill::help::clip {
 inline constexpr const char* about = R"(Clips parts by planes or boxes, with watertight caps.)";
 
 inline constexpr const char* details =
-    R"(Every vertex is classified once, by the exact sign of its distance, so neighbouring faces always
-agree, and a vertex on the plane is neither in front of it nor behind it. Each cut edge gets one new
-vertex, shared by all faces at that edge. Triangles, quads and larger faces, convex or concave, are
-cut directly. A closed part that is capped stays closed in every case: after several planes in a
-row, when it is non-manifold, and when it intersects itself (where it covers a region twice, so does
-its cap). Where the kept part touches a plane only at a vertex or an edge, the cap has it as a corner
-or an edge, and a manifold part is separated there. Points that a clip placed on a plane count as lying on it when the same plane is used
-again, in this stage or a later one, until a stage moves them. Of a part without faces, a cloud of
-points, the points on the kept side stay; those on a plane are in front of it.
+    R"(Each vertex is classified once by the exact sign of its distance, so neighbouring faces always
+agree.
+A vertex on the plane is neither in front nor behind.
+Each cut edge gets one new vertex, shared by all faces at that edge.
+Triangles, quads and larger faces, convex or concave, are cut directly.
+A capped closed part always stays closed, even after several planes, when it is non-manifold, or
+when it intersects itself.
+If the part covers a region twice, so does its cap.
+If the kept side touches a plane only at a vertex or an edge, this becomes a corner or an edge of the
+cap.
+A manifold part is separated at these places.
+Points that a clip placed on a plane still count as on that plane in later clips, until a stage
+moves them.
+In a point cloud, points on the kept side stay, and points on a plane count as in front.
 
 Planes are in world space, so node transforms of parts are respected.
 A face of a closed part that lies in the plane is kept only if it faces away from the kept side.

@@ -13,7 +13,7 @@ const RegisterMessages combine_messages{
     {"W-COMBINE-IDLE", "A part of `with` removes nothing in `combine`.",
      "Move the part so that it meets the others (`transform: {only: NAME, translate: [0, 0, 1]}`), or leave "
      "it out of `with`. `facetmill info` prints the bounds."},
-    {"W-COMBINE-NOTHING", "`combine` leaves nothing of a part.",
+    {"W-COMBINE-NOTHING", "`combine` removes all faces of a part.",
      "For an intersection, use parts that overlap. For a difference, use parts that do not cover it. "
      "`facetmill info` prints the bounds."},
 };

@@ -50,10 +50,10 @@ struct CropOptions {
 };
 
 void declare(Declare<CropOptions>& d) {
-    d.option("footprint", &CropOptions::footprint,
-             "The polygon, in scene units or in the unit that a DXF states: a GeoJSON, WKT or DXF file; WKT "
-             "text; a ring of points; or a list "
-             "of rings, where a ring inside another is a hole.")
+    d.option(
+         "footprint", &CropOptions::footprint,
+         "The polygon: a GeoJSON, WKT or DXF file, WKT text, a ring of points, or a list of rings. A ring "
+         "inside another is a hole. Coordinates are in scene units, unless a DXF gives its own unit.")
         .required()
         .primary();
     d.choice<Axis>("axis", &CropOptions::axis,

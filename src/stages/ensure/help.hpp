@@ -8,7 +8,9 @@ inline constexpr const char* about =
 
 inline constexpr const char* details =
     R"(The assertions are the same as for the common key `ensure`, but this stage checks the scene at this
-point of the pipeline. Use validate instead to get evidence, to check each part, to warn only, or to
-judge the file after write. The mesh passes on unchanged.)";
+point of the pipeline.
+Use validate instead to get evidence, to check each part, only to warn, or to check the file after
+write.
+The mesh passes on unchanged.)";
 
 } // namespace facetmill::help::ensure

@@ -14,8 +14,8 @@ Names are made unique.
 
 The scene takes its unit and up axis from the first file that has them.
 Later files are converted to them.
-OBJ and OFF files can give them in comments in the first lines (`# unit: mm`, `# up: z`), PLY and
-binary STL files in the header.
+OBJ and OFF files can give them in comments in the first lines (`# unit: mm`, `# up: z`).
+PLY and binary STL files can give them in the header.
 
 Lines (l in OBJ, edges in PLY, line primitives in glTF) become separate parts.
 Stages that work on faces leave them unchanged.
@@ -29,8 +29,8 @@ A malformed file is refused, and the error gives the line or byte.
 Files with coordinates that are not finite are also refused, unless not_finite: drop removes these
 vertices.
 Unknown attributes, such as quality and confidence, may contain nan, which means no value.
-The stage render shows nan as "no value". When split, clip or simplify mix nan with numbers, the
-result is nan.
+The stage render shows nan as "no value".
+When split, clip or simplify mix nan with numbers, the result is nan.
 Formats that cannot store nan get 0 (W-NAN).)";
 
 } // namespace facetmill::help::load

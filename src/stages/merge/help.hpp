@@ -6,13 +6,19 @@ namespace facetmill::help::merge {
 inline constexpr const char* about = R"(Joins parts into a single part.)";
 
 inline constexpr const char* details =
-    R"(The parts (all parts, or those selected by the key `only`) become one mesh in world space, in the
-place of the first. Materials stay with their faces. Where an attribute exists only in some parts,
-the others get white (colours), the normal of the face, no number (nan, where attributes have no
-meaning to facetmill, such as quality), or zero; in glTF they are written without it. The face
-attribute `group` numbers the original parts, so `separate: group` separates them
-again. Nodes and skins of the parts are dropped. Parts that merging would show differently stay as they
-are: animated and instanced parts, levels of detail, and parts that viewers do not show. Closedness is a property of a part:
-solids that only touch form one closed part, and with weld they share vertices.)";
+    R"(The selected parts (all parts, unless you give the common key `only`) become one mesh in world
+space.
+The mesh replaces the first of them.
+Faces keep their materials.
+If only some parts have an attribute, the others get a default value.
+Colours become white, normals become the face normals, and known attributes become zero.
+Unknown attributes, such as quality, become nan.
+In glTF, the parts that lacked an attribute are written without it.
+The face attribute `group` numbers the original parts, so `separate: group` can undo the merge.
+Nodes and skins are removed.
+Parts that merging would show differently stay unchanged (W-MERGE-STAYS).
+These are animated and instanced parts, levels of detail, and parts that viewers do not show.
+Solids that only touch form one closed part.
+With weld they also share vertices.)";
 
 } // namespace facetmill::help::merge

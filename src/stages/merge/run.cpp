@@ -35,9 +35,9 @@ struct MergeReport {
 
 void declare_report(DeclareFields<MergeReport>& d) {
     d.field("part", &MergeReport::part, "The name of the joined part.").only_when("a part was merged");
-    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices that were merged with others.")
+    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices merged into others.")
         .only_when("a part was merged");
-    d.field("merged", &MergeReport::merged, "The names of the parts that were joined, in order.");
+    d.field("merged", &MergeReport::merged, "The names of the joined parts, in order.");
 }
 
 /// Numbers the faces by their original part, for `separate: group`.
@@ -57,9 +57,9 @@ constexpr const char* placed_several_times = "placed several times by EXT_mesh_g
 
 /// The reason why merging would change what viewers show of a part; null if it would not.
 const char* reason_to_stay(const io::PartView& view) {
-    if (view.animated) return "moved by an animation";
-    if (view.hidden) return "not shown";
-    if (view.lower_level || view.has_levels) return "of several levels of detail";
+    if (view.animated) return "animated";
+    if (view.hidden) return "hidden";
+    if (view.lower_level || view.has_levels) return "linked to levels of detail";
     if (view.instanced) return placed_several_times;
     return nullptr;
 }
@@ -82,7 +82,7 @@ std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
                                  reason, names.size() == 1 ? "is" : "are", io::some_of(names)),
                      reason == placed_several_times
                          ? "load: {instances: expand} makes a part of each"
-                         : "to merge them as they are at rest, write the scene to PLY, which has no nodes, "
+                         : "to merge them in their rest pose, write the scene to PLY, which has no nodes, "
                            "and load that");
     return chosen;
 }
@@ -97,7 +97,7 @@ void keep_thickness(Scene& scene, const std::vector<bool>& chosen, Context& cont
         growth[i].mesh = io::length_growth(part.transform);
         if (!io::grows_evenly(part.transform))
             context.warn("W-VOLUME",
-                         fmt::format("merge: part '{}' is scaled differently by direction, so its "
+                         fmt::format("merge: the scale of part '{}' differs by direction, so its "
                                      "thickness becomes the mean of three",
                                      part.name),
                          "leave it out with `only`");

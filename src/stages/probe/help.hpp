@@ -14,7 +14,8 @@ A point is inside if its winding number is not zero.
 This test is exact and counts the crossings of a ray with the faces.
 An open surface has no inside (W-PROBE-OPEN), but distances are still measured.
 
-For each segment and ray, the report lists its hits. Each hit has t (0 to 1 along a segment, the distance along a ray), the point, and the part and face.
+For each segment and ray, the report lists its hits.
+Each hit has t (0 to 1 along a segment, the distance along a ray), the point, and the part and face.
 It also shows whether the line enters the surface.
 Exact signs decide whether a line meets a face.
 A line through an edge or a corner counts as moved slightly aside, always in the same direction.

@@ -140,7 +140,7 @@ std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
         return corners;
     }
     throw Error(ErrorKind::usage, "E-FACE",
-                fmt::format("there is no face {}; the last one is {}", number, number - left - 1),
+                fmt::format("face {} does not exist; the last face is {}", number, number - left - 1),
                 fmt::format("give a number from 0 to {}", number - left - 1));
 }
 

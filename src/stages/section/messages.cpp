@@ -4,9 +4,9 @@ namespace facetmill {
 
 const RegisterMessages section_messages{
     {"W-OPEN-SECTION",
-     "A section has open contours, because the mesh is open where the plane cuts it. Or closed contours of "
-     "an open mesh run clockwise, such as those around the pits of a terrain.",
-     "Take the lines alone of a terrain or a sheet, which has no inside and no area, or make it a solid with "
+     "A section has open contours because the mesh is open where the plane cuts it. Or the mesh is open, and "
+     "closed contours run clockwise, for example around the pits of a terrain.",
+     "A terrain or a sheet has no inside and no area, so use only its lines, or make it a solid with "
      "`thicken`. Close the holes of a solid with `clean: {holes: minimal}`."},
     {"W-SECTION-CROSSES",
      "Contours of a section intersect themselves. Every region that they wind around, in either direction, "

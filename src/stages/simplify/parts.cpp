@@ -118,12 +118,11 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
                                 : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
     context.warn(
         "W-SIMPLIFY-LIMIT",
-        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
-                    "than max_quadric_error ({})",
+        fmt::format("{} {} of {} triangles, above the target: fewer triangles would move the surface by "
+                    "more than max_quadric_error ({})",
                     who, grouped(after), grouped(before), limit.text),
         "use max_quadric_error: off to reach the target regardless of the error, or a larger one, such as 5% "
-        "of "
-        "part");
+        "of part");
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {

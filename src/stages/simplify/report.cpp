@@ -18,14 +18,14 @@ struct Reason {
 };
 
 std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
-    return {{b.seams, "held by seams and by borders of materials and groups",
+    return {{b.seams, "by seams and by borders of materials and groups",
              "use method: cluster, which does not keep the borders of texture islands, materials and groups"},
             {b.borders, "by boundaries and locks",
-             "ask for more faces, or use method: cluster, which moves boundaries; lock less"},
+             "ask for more faces, lock fewer vertices, or use method: cluster, which moves boundaries"},
             {b.non_manifold, "at non-manifold regions", "use clean before simplify to repair them"},
             {b.topology, "by topology",
              "use topology: allow, which lets small components, holes and handles vanish"},
-            {b.flips, "would flip a face", "ask for more faces, or use method: cluster"},
+            {b.flips, "because a face would flip", "ask for more faces, or use method: cluster"},
             {b.error, "by max_quadric_error", "use a larger max_quadric_error, or max_quadric_error: off"}};
 }
 

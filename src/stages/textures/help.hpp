@@ -22,8 +22,8 @@ PNG loses its metadata, JPEG keeps it.
 Other images also stay unchanged.
 An image stays unchanged if the other format would not be smaller (except with png).
 It stays unchanged if it is broken, larger than 2^26 pixels, or of another kind (KTX2, DDS).
-It stays unchanged if it is read pixel by pixel (both filters NEAREST, as for a palette), or if it
-contains feature ids, metadata or light.
+It stays unchanged if it is read pixel by pixel (both filters NEAREST, as for a palette).
+It also stays unchanged if it contains feature ids, metadata or light.
 A colour image with used alpha does not become JPEG (W-TEXTURE-KEPT).
 Images with 16 bits per channel get 8 bits when they are processed.
 

@@ -19,13 +19,16 @@ The solid is closed only if the surface is oriented (W-THICKEN-OPEN), so use ori
 Sheets become separate solids if they meet only at a vertex, or at an edge with more than two faces.
 Instances of a mesh with the same rotation and scale are thickened once and share the result.
 
-Flat faces whose triangles would be inverted in their plane are triangulated again, so a ring or a
-plate with holes keeps its shape. The result is checked for self-intersections (unless the thickness
-is larger than the part), for other faces that are inverted by the offset, including faces that
-collapse, and for walls within other walls (W-THICKEN). Faces that only touch are not
-self-intersections. The wall thickness is measured from the vertices of the front to the faces of the
-back. The report gives all of these. Attributes are kept on both sides, with normals reversed on the
-back; walls take the attributes of their edge and have normals of their own.
+Flat faces are triangulated again if the offset would invert their triangles in their plane.
+A ring or a plate with holes therefore keeps its shape.
+The stage checks the result for self-intersections, unless the thickness is larger than the part.
+Faces that only touch are not self-intersections.
+It also looks for other faces that the offset inverted or collapsed, and for walls inside other walls
+(W-THICKEN).
+The report gives these counts and the wall thickness, measured from the front vertices to the back
+faces.
+Both sides keep their attributes, and the back gets reversed normals.
+Walls copy the attributes of their edge and get their own normals.
 
 With self_intersections: resolve, boolean operations rebuild a solid that folds or intersects
 itself.

@@ -28,7 +28,7 @@ const char* reason_to_keep_node(const io::PartView& view, bool uneven_thickness)
     if (view.animated) return "is animated";
     if (view.instanced) return "has several instances";
     if (view.shares_node) return "has a camera, a light or another extension at its node";
-    if (uneven_thickness) return "has a material with a thickness and is scaled differently by direction";
+    if (uneven_thickness) return "has a material with a thickness and a scale that differs by direction";
     return nullptr;
 }
 
@@ -52,7 +52,7 @@ class Mover {
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
         if (scene_.parts.empty() && !all_.identity())
-            context_.warn("W-TRANSFORM", "transform: the scene has no meshes, and nodes without them stay");
+            context_.warn("W-TRANSFORM", "transform: the scene has no meshes, so no node is moved");
         if (o_.bake) bake();
         return {all_, converted.factor, fit, to_string(scene_.unit), to_string(scene_.up)};
     }

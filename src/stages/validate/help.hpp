@@ -13,25 +13,25 @@ The option `for` adds the assertions for a purpose, and your own values take pre
 Without any property or purpose, the mesh must be closed, edge-manifold, vertex-manifold, oriented,
 free of degenerate faces, and not empty.
 
-After `write`, each file that holds the current scene is read back and judged, in the units and axes of
-the scene. If a stage changed the scene after `write`, or no file holds all its parts, the scene itself
-is judged. Tilesets and meshes in cells are judged as scenes. The report names the file of each check.
-Limits of bytes, draw_calls and texture_pixels apply to each file written before, also in branches and
-in foreach, and need a `write` before them (E-LIMITS).
+After `write`, the stage reads back and checks each file that holds the current scene, in the units
+and axes of the scene.
+The stage checks the scene itself if a stage changed it after `write`, or if no file holds all parts.
+It also checks the scene instead of tilesets and of meshes in cells.
+The report names the file of each check.
+The limits bytes, draw_calls and texture_pixels apply to each file written before, also in branches
+and in foreach.
+They need a `write` before them (E-LIMITS).
 
-If a check with a purpose (for) passes, `write` keeps the promise for the same scene: it repairs what
-32-bit floats spoil, reads the file back, and fails the run (exit 1) if the file does not fit.
+After a check with a purpose (for) passes, `write` keeps the same scene fit for it.
+It repairs faults from 32-bit floats and reads the file back.
+The run fails (exit 1) if the file does not fit.
 
-To introduce a check on existing assets, `baseline: known.json` with update_baseline (or run
---update-baseline) writes what fails today. From then on, without update_baseline, those failures
-are waived (known), and new ones fail. A failure is identified by its check, its part and its
-locations: edges, faces, pairs of faces and vertices by the exact coordinates of their vertices in
-the part's local space, whatever their numbers and order, and components by their lowest vertex (x
-first, then y, z). So a new fault in place of a fixed one fails, and so do faults on faces that
-moved. A failure without locations (counts, except the names of a limit) is waived as long as the
-value has not moved farther from the bound. The run reports known failures that no longer occur. A
-baseline lists up to 50000 locations per check. Beyond that it stores a sample and one combined key,
-by which it still notices when as many locations remain but some of them are different.
+All assertions are checked.
+For each failure, the stage reports the number of faulty elements and the positions of the first or
+worst.
+Failures of a measure list only faces beyond the bound.
+Angles are in degrees.
+The mesh passes on unchanged.
 
 A baseline lets you introduce checks on existing assets.
 The option `baseline: known.json` with update_baseline (or run --update-baseline) writes the current

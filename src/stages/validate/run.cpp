@@ -112,8 +112,8 @@ struct ValidateStage : StageOf<run> {
     }
     std::optional<std::string> why_not_on_cells() const override {
         if (o.limits.need_whole_scene()) return "limits other than bytes need the whole scene";
-        if (o.per == Per::component) return "per: component needs the whole mesh";
-        if (o.baseline || o.mark) return "baseline and mark look at places of the whole mesh";
+        if (o.per == Per::component) return "per: component needs the whole mesh in memory";
+        if (o.baseline || o.mark) return "baseline and mark need the whole mesh in memory";
         return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));
     }
 };

@@ -171,23 +171,25 @@ template <class Look>
 void each_limit(Look&& look) {
     using L = SceneLimits;
     constexpr LimitsOf scene = LimitsOf::scene, file = LimitsOf::file;
-    look(Limit{"parts", scene, &L::parts, "How many parts; a bare number is the maximum (10).", parts_of});
+    look(Limit{"parts", scene, &L::parts, "The number of parts. A bare number is the maximum (10).",
+               parts_of});
     look(Limit{"materials", scene, &L::materials, "The number of materials.", materials_of});
-    look(Limit{"bytes", file, &L::bytes,
-               "The size of each file written before this check, with its buffers and images: 10MB, 500kB "
-               "(1000 bytes each), 1.5MiB, 500KiB or 500K (1024 bytes each) or a number of bytes.",
-               bytes_of});
+    look(Limit{
+        "bytes", file, &L::bytes,
+        "The size of each file written before this check, with its buffers and images. Give a number of "
+        "bytes, or a unit: 10MB or 500kB (1000 bytes each), or 1.5MiB, 500KiB or 500K (1024 bytes each).",
+        bytes_of});
     look(Limit{"draw_calls", file, &L::draw_calls,
-               "The draw calls of each file written before this check: its nodes' primitives (a count).",
+               "The number of draw calls (primitives of nodes) in each file written before this check.",
                draw_calls_of});
     look(Limit{"texture_pixels", file, &L::texture_pixels,
-               "The pixels of all PNG, JPEG and WebP images of each file written before this check (a "
-               "count).",
+               "The total number of pixels in all PNG, JPEG and WebP images of each file written before "
+               "this check.",
                texture_pixels});
-    look(Limit{"names", scene, &L::names, "Patterns; the name of every part must match one of them.",
-               names_of});
-    look(Limit{"extensions", scene, &L::extensions,
-               "Names or patterns of the glTF extensions that may be used.", extension_names});
+    look(Limit{"names", scene, &L::names,
+               "Patterns for part names. The name of every part must match one of them.", names_of});
+    look(Limit{"extensions", scene, &L::extensions, "Names or patterns of the allowed glTF extensions.",
+               extension_names});
 }
 
 template <class Bound>

@@ -90,10 +90,9 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
         return fmt::format("the grid of {} bits {}: use more bits of quantize.position, or no quantize",
                            settings.quantize.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
-        return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
+        return fmt::format("32-bit floats {}: use precision: full to keep all bits", what);
     return fmt::format("the 32-bit floats of {} {}: put clean: {{precision: single, self_intersections: "
-                       "all}} before write, or "
-                       "write PLY, OBJ or OFF with precision: full",
+                       "all}} before write, or write PLY, OBJ or OFF with precision: full",
                        codec.name, what);
 }
 
@@ -318,7 +317,7 @@ WrittenScene stage_files(const io::Written& written, const std::filesystem::path
     if (back.too_far_for_floats())
         context.warn(
             "W-ROUNDED",
-            fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are {:.2g} apart so far "
+            fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are {:.2g} apart so far "
                         "from the origin (the diagonal is {:.4g})",
                         path.string(), back.position_error, back.float_step, back.diagonal),
             codec.can.full_precision && !settings.double_positions

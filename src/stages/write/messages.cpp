@@ -6,13 +6,12 @@ const RegisterMessages write_messages{
     {"E-UP", "The scene has no up axis, so it cannot be rotated.",
      "Give the up axis when loading: `load: {up: z}`.", ErrorKind::stage},
     {"W-DRACO",
-     "A glTF file is written uncompressed: its Draco compresses faces only, and the scene has none.",
+     "A glTF file is not compressed, because Draco in glTF compresses only faces, and the scene has none.",
      "Compress points and lines with `write: {meshopt: true}`."},
     {"W-ORIGIN",
      "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
      "position it.",
-     "Use `merge` before `write`, which makes parts without skins and animations, if you need the new "
-     "origin."},
+     "If you need the new origin, use `merge` before `write` to make parts without skins and animations."},
     {"W-ROUNDED",
      "Rounding or a limit of the format gave a written file more defects than the scene. Or it moved points "
      "by more than a millionth of the diagonal.",

@@ -27,10 +27,10 @@ void declare_grid(Declare<Options>& d) {
           "but at least 10"},
          {"mesh", Grid::mesh, "each mesh uses all bits for its own longest side"},
          {"even", Grid::even,
-          "the same steps everywhere, those of the scene's longest side, however small a mesh is, but finer "
-          "ones where vertices would coincide otherwise. Parts that meet keep meeting: where none is turned, "
-          "all have one grid. Meshes that an animation moves are as with scene"}},
-        "What the bits of positions are of.");
+          "all meshes use the same steps, derived from the scene's longest side. Steps are finer only where "
+          "vertices would coincide. Parts that meet stay in contact, and parts that are not rotated share "
+          "one grid. Animated meshes use scene"}},
+        "The length that is divided into 2^bits - 1 steps.");
 }
 
 void declare_draco(Declare<DracoOptions>& d) {

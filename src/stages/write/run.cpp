@@ -135,10 +135,10 @@ void warn_of_left_out(const std::vector<std::string>& names, bool lines, const W
     if (names.empty()) return;
     const auto formats = formats_with(lines ? &io::Capabilities::lines : &io::Capabilities::points_and_faces);
     context.warn(lines ? "W-LINES" : "W-SKIPPED",
-                 fmt::format("'{}': {} cannot hold {}, so {} {} left out: {}", o.path.text, codec.name,
-                             lines ? "lines" : "points beside faces", counted(names.size(), "part"),
+                 fmt::format("'{}': {} cannot store {}, so {} {} skipped: {}", o.path.text, codec.name,
+                             lines ? "lines" : "points next to faces", counted(names.size(), "part"),
                              names.size() == 1 ? "is" : "are", fmt::join(names, ", ")),
-                 fmt::format("{} to {}", lines ? "lines go" : "both go", fmt::join(formats, ", ")));
+                 fmt::format("{} can store {}", fmt::join(formats, ", "), lines ? "lines" : "both"));
 }
 
 /// Warns of parts left out because of their kind. Throws stage (E-EMPTY) if there are lines and no other
@@ -153,7 +153,7 @@ void tell_left_out(const Scene& scene, const Scene& out, const LeftOut& goes, co
         throw Error(
             ErrorKind::stage, "E-EMPTY",
             fmt::format("there is nothing to write to '{}': the scene has lines and no faces", o.path.text),
-            fmt::format("lines go to {}", fmt::join(formats_with(&io::Capabilities::lines), ", ")),
+            fmt::format("{} can store lines", fmt::join(formats_with(&io::Capabilities::lines), ", ")),
             context.where());
     warn_of_left_out(lines, true, o, codec, context);
     warn_of_left_out(points, false, o, codec, context);
@@ -177,10 +177,10 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
     }
     if (io::is_without_meshes(scene))
         throw Error(ErrorKind::stage, "E-EMPTY",
-                    fmt::format("there is nothing to write to '{}': the scene has no meshes, and {} holds "
-                                "nothing else",
+                    fmt::format("there is nothing to write to '{}': the scene has no meshes, and {} "
+                                "stores nothing else",
                                 o.path.text, codec.name),
-                    fmt::format("nodes, cameras and animations go to {}",
+                    fmt::format("{} can store nodes, cameras and animations",
                                 fmt::join(formats_with(&io::Capabilities::documents), ", ")),
                     context.where());
     const std::vector<std::string> formats = formats_with(&io::Capabilities::points);
@@ -188,8 +188,9 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
         ErrorKind::stage, "E-EMPTY",
         fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
                     any ? "points and no faces" : "neither faces nor points"),
-        any ? fmt::format("points go to {}", fmt::join(formats, ", "))
-            : "check what the stages before kept; the common key when: {vertices: {min: 1}} skips a write",
+        any ? fmt::format("{} can store points", fmt::join(formats, ", "))
+            : "check the result of the stages before; the common key when: {vertices: {min: 1}} skips an "
+              "empty write",
         context.where());
 }
 
@@ -225,13 +226,14 @@ void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec
 } // namespace
 
 void declare_write_report(DeclareFields<WriteReport>& d) {
-    d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
-        .only_when("it is not 1");
-    d.field("up", &WriteReport::up, "The axis that points up in the file.")
-        .only_when("the scene was turned for it");
-    d.field("fits", &WriteReport::fits, "The purpose of an earlier check, which the file read back fits too.")
+    d.field("factor", &WriteReport::factor, "The factor that the unit of the file applied to lengths.")
+        .only_when("the factor is not 1");
+    d.field("up", &WriteReport::up, "The up axis of the file.")
+        .only_when("the scene was rotated for the file");
+    d.field("fits", &WriteReport::fits,
+            "The purpose of an earlier check that the file also passed when it was read back.")
         .only_when("an earlier check had a purpose");
-    d.object("origin", &WriteReport::origin, "The point that coordinates in the file count from.",
+    d.object("origin", &WriteReport::origin, "The origin of the coordinates in the file.",
              [](DeclareFields<OriginReport>& f) {
                  f.field("offset", &OriginReport::offset, "The point in the scene's units.");
                  f.field("parts", &OriginReport::parts, "The number of parts whose nodes are at this point.");

@@ -419,8 +419,7 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
     }
     if (skipped > 0)
         merge.warn("W-SKIPPED",
-                   fmt::format("{}: {} without positions kept in the document as written, and no stage sees "
-                               "{}",
+                   fmt::format("{}: the document keeps {} without positions unchanged, and stages ignore {}",
                                merge.mesh_place.path(),
                                skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped),
                                skipped == 1 ? "it" : "them"));

@@ -333,8 +333,8 @@ void drop_coverage(Patch& patch, Json& node, std::size_t levels) {
     if (!node.contains(coverage) || node[coverage].size() == levels + 1) return;
     node["extras"].erase("MSFT_screencoverage");
     if (node["extras"].empty()) node.erase("extras");
-    patch.warn("W-LODS", fmt::format("node '{}' has other levels of detail now: its MSFT_screencoverage is "
-                                     "dropped, which counts the old ones",
+    patch.warn("W-LODS", fmt::format("the levels of detail of node '{}' changed, so its MSFT_screencoverage "
+                                     "for the old levels is removed",
                                      node.value("name", "")));
 }
 
