@@ -1,8 +1,6 @@
-// Implements the properties of faces: angles, edges, aspect ratio, planarity, and wall thickness.
+// The properties that each face has: angles, edges, aspect ratio and planarity.
 #include "base/math/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
-#include "geometry/spatial/rays_walk.hpp"
-#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
 #include "mesh/power_scale.hpp"
@@ -40,7 +38,7 @@ double edge_length(const Mesh& mesh, Index f, Index c) {
     return length(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
 }
 
-/// The worst aspect ratio of the face's triangles.
+/// The worst of the face's triangles.
 double worst_aspect_ratio(const Mesh& mesh, Index f) {
     double worst = 0;
     const Index begin = mesh.face_begin(f);
@@ -59,7 +57,7 @@ double nonplanarity(const Mesh& mesh, Index f) {
     return farthest;
 }
 
-/// [faces] The results of value(face).
+/// [faces] value(face)
 template <class Value>
 std::vector<double> of_each_face(const Mesh& mesh, Value&& value) {
     std::vector<double> values(mesh.face_count());
@@ -67,7 +65,7 @@ std::vector<double> of_each_face(const Mesh& mesh, Value&& value) {
     return values;
 }
 
-/// [faces] The smallest, or the largest, value(mesh, face, corner) over the corners of each face.
+/// [faces] the least, or the most, of value(mesh, face, corner) over the corners of each.
 template <class Value>
 std::vector<double> least_of_corners(const Mesh& mesh, Value&& value) {
     return of_each_face(mesh, [&](Index f) {
@@ -87,15 +85,6 @@ std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 
-/// The distance from p along the unit vector d to a triangle that the ray meets. The result is limited to
-/// the corners' distances, because rounding may cancel the angle of a grazing ray.
-double meets_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 n = cross(b - a, c - a);
-    const auto [least, most] = std::minmax({dot(a - p, d), dot(b - p, d), dot(c - p, d)});
-    const double facing = dot(n, d);
-    return facing > 0 ? std::clamp(dot(n, a - p) / facing, least, most) : least;
-}
-
 } // namespace
 
 std::vector<double> smallest_angles(const Mesh& mesh) { return least_of_corners(mesh, corner_angle); }
@@ -109,33 +98,6 @@ std::vector<double> aspect_ratios(const Mesh& mesh) {
 
 std::vector<double> nonplanarities(const Mesh& mesh) {
     return of_each_face(mesh, [&](Index f) { return nonplanarity(mesh, f); });
-}
-
-std::vector<double> wall_thicknesses(const Mesh& mesh) {
-    const FaceTree tree(filled_surface(mesh), FaceTree::Use::rays);
-    std::vector<double> ways(mesh.face_count(), HUGE_VAL);
-    parallel_for(
-        ways.size(),
-        [&](std::size_t f) {
-            const auto face = static_cast<Index>(f);
-            const Vec3 d = -normalised(area_vector(mesh, face)), p = corner_mean(mesh, face);
-            if (!(dot(d, d) > 0) || !is_finite(p)) return;
-            const Line line{p, p + d, true};
-            // Exact, so that a ray does not slip through between two faces at an edge.
-            const rays::LineSigns signs(line.from, line.to);
-            rays::LineWalk walk(tree, line);
-            while (walk.step([&](Index t) {
-                if (tree.face(t) == face) return ways[f];
-                const auto [a, b, c] = tree.triangle(t);
-                if (signs.passes(a, b, c) != 1) return ways[f]; // the ray does not leave through the front
-                const double at = meets_at(p, d, a, b, c);
-                if (at >= 0) ways[f] = std::min(ways[f], at);
-                return ways[f];
-            })) {
-            }
-        },
-        256);
-    return ways;
 }
 
 std::optional<double> value_of(const Property& property, const Measured& mesh) {

@@ -19,9 +19,11 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 [[nodiscard]] std::vector<double> longest_edges(const Mesh& mesh);
 /// The distance of the farthest corner from the mean plane.
 [[nodiscard]] std::vector<double> nonplanarities(const Mesh& mesh);
-/// The distance from the face's middle, against its normal, to the first face hit from behind. Infinity if
-/// no face is hit, or the face has no area. Uses floating point, so a ray exactly through an edge may miss
-/// it.
+/// wall_thickness.cpp: [faces] infinity where there is no wall. Along the inward normal, as seen from all
+/// points of the face: the least distance to a surface within 45 degrees of facing it, to a reflex edge with
+/// a normal within 45 degrees between those of its faces, or to a vertex from which all its faces rise. The
+/// minimum over two triangles is at a corner of the polygon where they overlap, so it is exact up to
+/// rounding. A ray from the centroid counts at any angle.
 [[nodiscard]] std::vector<double> wall_thicknesses(const Mesh& mesh);
 
 // In face_pairs.cpp:

@@ -38,6 +38,12 @@ class BoxTree {
     /// Whether holds(item) is true for an item whose box meets or touches `box`. Stops at the first.
     template <class Holds>
     bool any_of(const Box& box, Holds&& holds) const {
+        return any_where([&](const Box& other) { return boxes_meet(other, box); }, holds);
+    }
+
+    /// The same for the items for whose boxes meets(box) is true. It must also be true for larger boxes.
+    template <class Meets, class Holds>
+    bool any_where(Meets&& meets, Holds&& holds) const {
         if (levels_.empty()) return false;
         struct Node {
             std::uint32_t level, index;
@@ -47,11 +53,11 @@ class BoxTree {
         stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
         while (size > 0) {
             const Node node = stack[--size];
-            if (!boxes_meet(levels_[node.level][node.index], box)) continue;
+            if (!meets(levels_[node.level][node.index])) continue;
             if (node.level == 0) {
                 const std::size_t end = std::min(boxes_.size(), std::size_t{node.index + 1} * leaf);
                 for (std::size_t i = std::size_t{node.index} * leaf; i < end; ++i)
-                    if (boxes_meet(boxes_[i], box) && holds(items_[i])) return true;
+                    if (meets(boxes_[i]) && holds(items_[i])) return true;
                 continue;
             }
             const std::uint32_t child = 2 * node.index;
