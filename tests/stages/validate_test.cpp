@@ -13,8 +13,8 @@
 
 using namespace facetmill;
 using test::Bench;
-using test::options;
 using test::failure;
+using test::options;
 using test::run_stage;
 using test::scene_of;
 
