@@ -68,6 +68,7 @@ const char* reason_to_stay(const io::PartView& view) {
 std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
     const std::vector<io::PartView> views = io::part_views(scene);
     std::vector<bool> chosen;
+    chosen.reserve(scene.parts.size());
     std::map<std::string_view, std::vector<std::string>> staying; // names by reason
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const bool selected = context.selects(scene.parts[i], scene);
