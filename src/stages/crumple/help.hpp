@@ -42,7 +42,7 @@ After eight rounds, the surrounding vertices are lowered as well.
 After sixteen rounds, the surrounding region doubles in each round.
 
 The work in each round is limited to 32 pairs of nearby triangles per face.
-If it is more, the limit is three times the pairs before the displacement.
+The limit is three times the pairs before the displacement, if that is more.
 Beyond this, shares fall to an eighth at once, and to 0 after three such rounds, together with the
 surrounding vertices (W-CRUMPLE-COARSE).
 
