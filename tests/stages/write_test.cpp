@@ -132,10 +132,9 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
     b.run("write", Value::scalar("c.stl"));
     REQUIRE(b.record.warnings.size() == 2);
-    CHECK(
-        b.record.warnings[1].hint ==
-        "the 32-bit floats of stl put 1 point on others: put clean: {precision: single, self_intersections: "
-        "all} before write, or write PLY, OBJ or OFF with precision: full");
+    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl moved 1 point onto others: put clean: "
+                                       "{precision: single, self_intersections: "
+                                       "all} before write, or write PLY, OBJ or OFF with precision: full");
     b.run("clean", options({{"precision", "single"}, {"self_intersections", "all"}}));
     b.run("write", Value::scalar("d.stl"));
     CHECK(b.record.warnings.size() == 2); // the hint helps

@@ -35,7 +35,7 @@ class Breaches {
 void check_members(const Json& document, Breaches& breaches);
 
 /// Checks the rules between objects. The members must have been checked.
-void check_rules(const Json& document, Breaches& breaches);
+void check_rules(const Json& json, Breaches& breaches);
 
 /// Sets the missing and wrong minima and maxima of accessors from their numbers; those without bytes, and of
 /// Draco, stay. Breaches receive the wrong ones. Returns true if the document has changed.

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace patch_shared_test {
+namespace builder_test {
 
 using namespace facetmill;
 
@@ -115,4 +115,4 @@ TEST_CASE("extensions that name nothing do not keep what is unused", "[gltf]") {
     CHECK(accessors_after("ACME_data", R"({"values": "/accessors/1"})") == 2);
 }
 
-} // namespace patch_shared_test
+} // namespace builder_test
