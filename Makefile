@@ -46,7 +46,7 @@ tests: configure
 
 demo: build
 	@mkdir -p out
-	$(BUILD)/facetmill run quickstart -D input=examples/data/nefertiti.ply --output-dir out
+	$(BUILD)/facetmill run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
 	@echo
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."

@@ -98,7 +98,6 @@ TESTED_IN = {
     "geometry/openmesh": "geometry/simplify/simplify_test.cpp",  # method: constrained
     "geometry/probe": "stages/probe_test.cpp",
     "io/off": "io/round_trip_test.cpp",
-    "io/stl": "io/round_trip_test.cpp",
 }
 
 # Tests that are of no one file or folder, and of what.

@@ -116,7 +116,7 @@ std::string source_line(const Mark& mark) {
     return line;
 }
 
-/// How many characters (UTF-8) the first bytes hold.
+/// The number of UTF-8 characters in the text.
 std::size_t characters(std::string_view text) {
     return std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Errors as data: a diagnostic has a stable id, a message, a location and a hint; an Error carries one or
-// several and an exit code. Library code throws, never prints and never exits.
+// Errors as data: a diagnostic has a stable id, a message, a location and a hint; an Error contains one or
+// more diagnostics and an exit code. Library code throws, never prints and never exits.
 
 #include "base/mark.hpp"
 
@@ -11,15 +11,15 @@
 
 namespace facetmill {
 
-/// Who can fix it; the value is the process's exit code.
+/// The kind of an error, which shows who can fix it. The value is the process's exit code.
 enum class ErrorKind : int {
-    check = 1,     ///< a validate or ensure failed
+    check = 1,     ///< a check of validate or ensure failed
     usage = 2,     ///< the command line or the pipeline is wrong
     missing = 3,   ///< an input is missing or not permitted
     output = 4,    ///< an output cannot be written
     stage = 5,     ///< a stage could not process its input
     malformed = 6, ///< an input is malformed
-    limit = 7,     ///< a limit or memory
+    limit = 7,     ///< a limit was exceeded, or memory was short
     bug = 70,      ///< a bug in facetmill
 };
 
@@ -34,7 +34,7 @@ struct Diagnostic {
     std::string message; ///< one sentence without a full stop: the expected and the found value
     Mark where;          ///< may be unknown
     std::string hint;    ///< how to fix it, or empty
-    /// It failed for lack of memory, and may succeed with less work in parallel.
+    /// The operation failed for lack of memory, and may succeed with less parallel work.
     bool out_of_memory = false;
 };
 
@@ -51,7 +51,7 @@ class Error : public std::exception {
 
     ErrorKind kind() const { return kind_; }
     const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
-    /// Sets the location of the diagnostics that have none: low-level code throws the message, and a higher
+    /// Sets the location of the diagnostics without one. Low-level code throws the message, and a higher
     /// layer adds the location.
     Error& at(const Mark& where);
     const char* what() const noexcept override { return text_.c_str(); }
@@ -65,7 +65,7 @@ class Error : public std::exception {
 /// An error of kind limit (E-MEMORY), with out_of_memory set.
 [[nodiscard]] Error out_of_memory(std::string message, std::string hint = {}, Mark where = {});
 
-/// Whether --allow lists the warning: the ids are from the user.
+/// Whether --allow lists the warning. ids: the user's list.
 bool is_allowed(const Diagnostic& warning, const std::vector<std::string>& ids);
 
 /// Collects diagnostics, so that all of them can be reported at once.

@@ -16,10 +16,10 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A reader by recursive descent. Each function returns false when it gives up.
-/// The library builds an object member by member. Its members have constant keys, so a growing vector copies
-/// everything below them. Here members wait in a list until their number is known. Each level has one list,
-/// because a level reads only one object or array at a time.
+/// A reader by recursive descent. Each function returns false if it fails. The library builds an object
+/// member by member. Its members have constant keys, so a growing vector copies everything below them. Here
+/// members wait in a list until their number is known. Each level has a single list, because a level reads
+/// only one object or array at a time.
 class QuickReader {
   public:
     QuickReader(std::string_view text, int deepest, std::span<const std::string_view> unread)
@@ -193,12 +193,12 @@ class QuickReader {
         return true;
     }
 
-    /// A string with its quotes. Strings with escapes or other than plain ASCII are left to the library.
+    /// A string with its quotes. Strings with escapes or non-ASCII characters are left to the library.
     bool string(std::string& out) {
         const char* const first = ++at_;
         bool plain = true;
         for (; at_ != end_ && *at_ != '"'; ++at_) {
-            plain &= *at_ >= ' ' && *at_ != '\\'; // bytes beyond ASCII are below zero where char has a sign
+            plain &= *at_ >= ' ' && *at_ != '\\'; // bytes beyond ASCII are negative if char is signed
             plain &= static_cast<unsigned char>(*at_) < 0x80;
             if (*at_ == '\\' && ++at_ == end_) return false;
         }
@@ -218,7 +218,7 @@ class QuickReader {
         while (at_ != end_ && is_digit(*at_)) ++at_;
     }
 
-    /// At least one digit.
+    /// Reads at least one digit.
     bool digits() {
         const char* const first = at_;
         skip_digits();
@@ -243,7 +243,7 @@ class QuickReader {
             if (at_ != end_ && (*at_ == '+' || *at_ == '-')) ++at_;
             if (!digits()) return false;
         }
-        // An integer that 64 bits do not hold becomes a real number.
+        // An integer beyond 64 bits becomes a real number.
         return (whole && (negative ? of_type<Json::number_integer_t>(first, out)
                                    : of_type<Json::number_unsigned_t>(first, out))) ||
                of_type<Json::number_float_t>(first, out);
@@ -339,7 +339,7 @@ void write_value(std::string& out, const Json& json) {
     case Json::value_t::boolean:
         out += json.get_ref<const Json::boolean_t&>() ? "true" : "false";
         return;
-    default: // null, and values without a text
+    default: // null, and values without a text form
         out += json.dump(-1, ' ', false, Json::error_handler_t::replace);
     }
 }

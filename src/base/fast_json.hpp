@@ -19,8 +19,8 @@ namespace facetmill {
 [[nodiscard]] std::optional<Json> fast_json(std::string_view text, int deepest = 256,
                                             std::span<const std::string_view> unread = {});
 
-/// The text of a value in one line, the same as json.dump(-1, ' ', false, Json::error_handler_t::replace). It
-/// recurses, as the library does.
+/// The text of a value in a single line, equal to json.dump(-1, ' ', false, Json::error_handler_t::replace).
+/// It recurses, as the library does.
 [[nodiscard]] std::string fast_text(const Json& json);
 
 /// Makes a value null. It is recursive; the library avoids recursion by first moving everything below the

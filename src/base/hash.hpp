@@ -18,7 +18,7 @@ class Sha256 {
     Sha256(const Sha256&) = delete;
     Sha256& operator=(const Sha256&) = delete;
     void add(std::span<const std::byte> bytes);
-    /// The digest of all added data; add nothing afterwards.
+    /// The digest of all added data. No data may be added afterwards.
     std::string digest();
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// A location in a text written by a person: pipeline file, command line, or a text mesh.
+// A location in a text: a pipeline file, command line, or text mesh.
 
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@ struct SourceText {
     std::string text; ///< empty when only the name is known (binary files)
 };
 
-/// A location in a text. Lines and columns count from 1, columns in characters; line 0: the file as a whole.
+/// A location in a text. Lines and columns count from 1, columns in characters; line 0 means the whole file.
 struct Mark {
     std::shared_ptr<const SourceText> source;
     int line = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The registry of message ids. Each room registers the ids that it raises in its messages.cpp. An id that
-// several rooms raise is registered in the lowest layer of them. `facetmill explain`, the manual page and
+// The registry of message ids. Each room registers the ids that it raises in its messages.cpp. If several
+// rooms raise an id, the lowest layer of them registers it. `facetmill explain`, the manual page and
 // --strict=ID read the registry. tests/golden/text_test.py compares it with the ids in src.
 
 #include "base/error.hpp"
@@ -39,12 +39,12 @@ struct MessageId {
     bool is_warning() const { return id.starts_with("W-"); }
 };
 
-/// Adds rows to the registry when the program starts: a constant at namespace scope.
+/// Adds rows to the registry when the program starts. Use it as a constant at namespace scope.
 struct RegisterMessages {
     RegisterMessages(std::initializer_list<MessageId> rows);
 };
 
-/// All ids in order: errors, then warnings. Throws when an id is registered twice.
+/// All ids in order: errors, then warnings. Throws if an id is registered twice.
 const std::vector<MessageId>& message_ids();
 /// The entry of an id, or null.
 [[nodiscard]] const MessageId* message_id(std::string_view id);

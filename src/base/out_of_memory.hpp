@@ -7,8 +7,7 @@
 
 namespace facetmill {
 
-/// True if memory ran out, for the program itself or for a system call (ENOMEM), which functions of
-/// std::filesystem report.
+/// True if memory ran out in the program, or in a system call (ENOMEM) that std::filesystem reports.
 bool is_out_of_memory(const std::exception& e);
 
 /// True if no thread could be started, because of missing memory for its stack or a limit of threads; the

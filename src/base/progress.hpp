@@ -12,7 +12,7 @@ namespace facetmill {
 class Progress {
   public:
     virtual ~Progress() = default;
-    /// A stage begins: number of number_of, and its name.
+    /// A stage begins: its number, the number of stages, and its name.
     virtual void stage(int number, int number_of, const std::string& name) = 0;
     /// Work outside the stages begins: for example, a picture or a report.
     virtual void beside_stages(const std::string& what) = 0;
@@ -39,7 +39,7 @@ class ProgressScope {
         }
     };
 
-    /// During its lifetime, `to` receives the shares that this thread reports; null: nobody.
+    /// During its lifetime, `to` receives the shares that this thread reports. Null: no receiver.
     explicit ProgressScope(Progress* to) : ProgressScope(Range{to, 0, 1}) {}
     /// During its lifetime, this thread's reports cover the part from `begin` to `end` of the enclosing
     /// scope.
@@ -55,7 +55,8 @@ class ProgressScope {
         if (i % 8192 == 0 && n > 0) report(static_cast<double>(i) / static_cast<double>(n));
     }
 
-    /// The next parallel loop (parallel/parallel.hpp) reports its progress; nested and later loops do not.
+    /// Lets the next parallel loop (parallel/parallel.hpp) report its progress; nested and later loops do
+    /// not.
     static void report_next_loop() { here().reports_loop = true; }
     /// The receiver of a starting parallel loop; none unless report_next_loop was called.
     static Range of_loop() {
@@ -88,7 +89,7 @@ class ProgressSteps {
     void next();
 
   private:
-    std::vector<double> lengths_; ///< as shares of all
+    std::vector<double> lengths_; ///< lengths as shares of the total
     std::size_t step_ = 0;
     double done_ = 0;
     ProgressScope::Range whole_;

@@ -10,17 +10,18 @@ namespace facetmill {
 
 struct Refusal {
     std::string option;  ///< name of the option: "min_angle"
-    std::string message; ///< "'min_angle' goes with no other target"; the owner of the option precedes it
+    std::string message; ///< for example "'min_angle' goes with no other target"; messages put the owner of
+                         ///< the option before it
     std::string hint = {};
     std::string id = "E-CONFLICT";
 };
 
-/// "split: 'min_angle' goes with no other target".
+/// The message with its owner: "split: 'min_angle' goes with no other target".
 [[nodiscard]] inline std::string refusal_text(std::string_view owner, const Refusal& refusal) {
     return std::string(owner) + ": " + refusal.message;
 }
 
-/// Throws usage if given a refusal. owner: the capability, "split".
+/// Throws a usage error if given a refusal. owner: the capability, "split".
 inline void throw_refusal(std::string_view owner, const std::optional<Refusal>& refusal) {
     if (refusal) throw Error(ErrorKind::usage, refusal->id, refusal_text(owner, *refusal), refusal->hint);
 }

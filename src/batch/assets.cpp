@@ -86,8 +86,9 @@ class AssetFinder {
         std::string hint = is_glob(pattern) ? hint_for_pattern(pattern, fixed) : "";
         if (was_there(pattern)) {
             if (holds_something(folder)) return;
-            hint = fmt::format("nothing is pruned while '{}' is missing or empty: is its disk there?",
-                               folder.string());
+            hint =
+                fmt::format("nothing is pruned while '{}' is missing or empty; mount its disk if it has one",
+                            folder.string());
         }
         missing_.push_back({Severity::error, "E-FILE", fmt::format("no file matches '{}'", pattern),
                             sources_.place(pattern), std::move(hint)});
@@ -122,7 +123,7 @@ class AssetFinder {
             text.remove_prefix(std::min(end + 1, text.size()));
         }
         if (!any)
-            missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' names no file", list),
+            missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' lists no files", list),
                                 sources_.place(list), "one name on each line, or each ended by a NUL"});
     }
 
@@ -146,7 +147,7 @@ class AssetFinder {
         }
     }
 
-    /// The asset's input, else its first cell.
+    /// The asset's input, otherwise its first cell.
     static std::string name_of(const Row& row) {
         for (const auto& cell : row)
             if (cell.param == input_param) return cell.text;

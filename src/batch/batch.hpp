@@ -1,6 +1,6 @@
 #pragma once
-// Runs a pipeline on many assets in one process. It finds the assets, skips those that an earlier batch
-// completed, runs the others on shared threads, and writes one summary.
+// Runs a pipeline on many assets in a single process. It finds the assets, skips those that an earlier batch
+// completed, runs the others on shared threads, and writes a summary.
 
 #include "base/text/markup.hpp"
 #include "batch/figures.hpp"
@@ -10,11 +10,11 @@
 
 namespace facetmill::batch {
 
-/// One run of the pipeline.
+/// A run of the pipeline.
 struct Asset {
     std::string name;             ///< unique: the input as given, or the name of the table row
-    std::filesystem::path input;  ///< empty: a row without one
-    std::filesystem::path folder; ///< of its outputs, relative to the output folder
+    std::filesystem::path input;  ///< empty: a row without an input
+    std::filesystem::path folder; ///< folder of its outputs, relative to the output folder
     bool of_table = false;
     std::vector<std::pair<std::string, std::string>> defines; ///< params of this asset
     std::map<std::string, Mark> defined_at;                   ///< marks in the table, if they come from one
@@ -36,8 +36,9 @@ struct Sources {
 
 /// The assets in the order of their sources, globs sorted by bytes, each file once. An asset's folder is the
 /// folder of its input relative to the base. The default base is the part of a pattern before its first
-/// wildcard, and the working directory for lists and tables. Outside the base the folder is empty. Throws
-/// missing (E-FILE) when a pattern matches nothing, malformed (E-TABLE) for an unreadable table.
+/// wildcard, and the working directory for lists and tables. Outside the base the folder is empty. Throws a
+/// missing-file error (E-FILE) if a pattern matches no file, and a malformed-input error (E-TABLE) for an
+/// unreadable table.
 [[nodiscard]] std::vector<Asset> find_assets(const Sources& sources);
 
 /// The assets that earlier batches of this pipeline recorded in an output folder.
@@ -69,7 +70,8 @@ struct Settings {
 struct Work {
     Asset asset;
     std::vector<std::filesystem::path> inputs, outputs; ///< as far as known before it runs
-    std::string digest; ///< of all options and other influences on the result, except the inputs' contents
+    std::string
+        digest; ///< digest of all options and other influences on the result, except the inputs' contents
     std::uint64_t memory = 0;                         ///< an estimate, in bytes
     std::vector<std::filesystem::path> asset_roots{}; ///< folders in which the inputs may refer to files
 };
@@ -78,12 +80,12 @@ struct Prepared {
     std::vector<Work> works;
     std::vector<Diagnostic> missing;  ///< for missing inputs
     std::vector<std::string> allowed; ///< ids of warnings, as in the plans
-    bool files_collide = false;       ///< then even the summary must not be written
+    bool files_collide = false;       ///< if true, even the summary must not be written
 };
 
 /// Plans every asset, so that nothing runs if any plan has errors. Adds the problems of planning. Adds
-/// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (ignoring case),
-/// and E-OVERWRITE for an output that is also an input.
+/// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (ignoring case).
+/// Adds E-OVERWRITE for an output that is also an input.
 [[nodiscard]] Prepared prepare(const std::vector<Asset>& assets, const Settings& settings,
                                Problems& problems);
 
@@ -103,10 +105,10 @@ struct Outcome {
 struct Summary {
     std::string pipeline;
     std::vector<Asset> assets;
-    std::vector<Outcome> outcomes; ///< of the assets
+    std::vector<Outcome> outcomes; ///< outcomes of the assets
     std::vector<std::string> pruned;
-    std::vector<Diagnostic> warnings, errors; ///< of the batch as a whole
-    int exit_code = 0;                        ///< the worst of all
+    std::vector<Diagnostic> warnings, errors; ///< diagnostics of the batch as a whole
+    int exit_code = 0;                        ///< the worst exit code
     int jobs = 0;
     double seconds = 0;
 };
@@ -119,10 +121,10 @@ struct Listener {
     std::function<void(const Summary&)> on_interrupt;
 };
 
-/// Runs the assets. The number of jobs comes from the settings, else from the tokens of the jobserver in
-/// MAKEFLAGS, else from default_threads(). The outputs of an asset appear together, and have the same bytes
-/// for any number of jobs. Completed assets are recorded in the output folder, so that the next batch skips
-/// unchanged assets. Throws output (E-BUSY) when another batch of this pipeline is running there.
+/// Runs the assets. The number of jobs comes from the settings, otherwise from the jobserver in MAKEFLAGS,
+/// otherwise from default_threads(). The outputs of an asset appear together, and have the same bytes for
+/// any number of jobs. Completed assets are recorded in the output folder, so that the next batch skips
+/// unchanged assets. Throws an output error (E-BUSY) when another batch of this pipeline is running there.
 [[nodiscard]] Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
 
 /// The summary of assets that do not run because of these errors.
@@ -144,7 +146,7 @@ struct Listener {
 /// because the messages were printed when they occurred.
 [[nodiscard]] Painted to_terminal(const Summary& summary, bool colour, bool all);
 /// A report in the format of its suffix (report::form_of). It contains neither times nor which assets were
-/// skipped, so that the same assets give the same text. Throws usage (E-REPORT) for another suffix.
+/// skipped, so that the same assets give the same text. Throws a usage error (E-REPORT) for another suffix.
 [[nodiscard]] std::string render_for(const std::string& path, const Summary& summary);
 /// The JSON Schema of the report in JSON.
 [[nodiscard]] Json summary_schema();

@@ -18,9 +18,10 @@ std::string faces_phrase(const Figures& f) {
 std::string size_phrase(const Figures& f) { return f.bytes > 0 ? sized(f.bytes) : ""; }
 
 constexpr Column all_columns[] = {
-    {"faces_in", "faces in", "As loaded first", &Figures::faces_in, grouped, nullptr},
-    {"faces_out", "faces out", "At the end", &Figures::faces_out, grouped, faces_phrase},
-    {"bytes", "size", "Of all outputs, without reports", &Figures::bytes, sized, size_phrase},
+    {"faces_in", "faces in", "Faces of the first loaded scene.", &Figures::faces_in, grouped, nullptr},
+    {"faces_out", "faces out", "Faces of the final scene.", &Figures::faces_out, grouped, faces_phrase},
+    {"bytes", "size", "The size of all outputs except reports, in bytes.", &Figures::bytes, sized,
+     size_phrase},
 };
 
 } // namespace

@@ -15,9 +15,9 @@ struct Figures {
 };
 
 struct Column {
-    const char* key;   ///< in JSON
-    const char* title; ///< in tables
-    const char* help;  ///< in the schema
+    const char* key;   ///< key in JSON
+    const char* title; ///< title in tables
+    const char* help;  ///< help in the schema
     std::uint64_t Figures::*value;
     std::string (*cell)(std::uint64_t);
     std::string (*phrase)(const Figures&); ///< in the asset's line of a text; null or empty: none

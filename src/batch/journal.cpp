@@ -151,11 +151,11 @@ void Journal::open_locked() {
         if (!file_)
             throw Error(ErrorKind::output, "E-WRITE",
                         fmt::format("'{}' cannot be written: {}", path_.string(), std::strerror(errno)),
-                        "a batch notes there what is done; --output-dir names another folder");
+                        "a batch records its progress there; choose another folder with --output-dir");
         if (!try_lock(file_))
             throw Error(ErrorKind::output, "E-BUSY",
-                        fmt::format("another batch of this pipeline is at work in '{}'", folder_.string()),
-                        "wait for its end, or write elsewhere with --output-dir");
+                        fmt::format("another batch of this pipeline is running in '{}'", folder_.string()),
+                        "wait until it ends, or choose another folder with --output-dir");
         const auto held = FileStamp::of(file_), named = FileStamp::of(path_);
         if (held && named && held->is_same_file(*named)) return;
         file_.close(); // a batch that just ended has replaced the file
@@ -203,9 +203,9 @@ std::optional<Diagnostic> Journal::unwritable(int error) {
     return Diagnostic{
         Severity::warning,
         "W-STATE",
-        fmt::format("what is done cannot be noted in '{}': {}", path_.string(), std::strerror(error)),
+        fmt::format("the progress cannot be recorded in '{}': {}", path_.string(), std::strerror(error)),
         {},
-        "the next batch will do it again"};
+        "the next batch will process these assets again"};
 }
 
 std::optional<Diagnostic> Journal::add(Done done) {
@@ -273,7 +273,7 @@ std::optional<Diagnostic> Journal::compact() {
     for (const auto& [asset, done] : all_) {
         try {
             text += done_json(done).dump() + "\n";
-        } catch (const Json::exception&) { // as in add
+        } catch (const Json::exception&) { // a name that is not UTF-8, as in add
         }
     }
     const fs::path part = path_.string() + ".part";

@@ -27,9 +27,9 @@ struct Stamp {
 /// A successful run; or the reports of a failed run, with the outputs of earlier runs.
 struct Done {
     std::string asset;
-    std::string digest;      ///< of Work; empty: it failed, so it never counts as unchanged
+    std::string digest;      ///< digest of Work; empty: the run failed, so it never counts as unchanged
     std::string source;      ///< the asset's input, absolute; empty: a row without input
-    std::string mount_point; ///< of the source; empty: unknown
+    std::string mount_point; ///< mount point of the source; empty: unknown
     bool of_table = false;
     std::vector<Stamp> inputs, outputs;
     std::vector<std::string> absent;                         ///< missing files that inputs refer to
@@ -48,8 +48,8 @@ struct Done {
 /// which is then ignored. The file is locked while it is open.
 class Journal {
   public:
-    /// name: of the pipeline. Creates the folder. Throws output: E-BUSY when another batch holds the lock,
-    /// E-WRITE.
+    /// name: the pipeline's name. Creates the folder. Throws an output error: E-BUSY when another batch
+    /// holds the lock, E-WRITE.
     Journal(const std::filesystem::path& folder, const std::string& name);
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;

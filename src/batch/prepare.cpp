@@ -86,7 +86,7 @@ class FileOwners {
         if (is_new || io::is_stream(path)) return;
         problems_.add({}, "E-DUPLICATE-OUTPUT",
                       fmt::format("the batch would write '{}' twice", path.string()),
-                      "give each report a name of its own");
+                      "give each report its own name");
     }
 
     /// beside: additional output files that an input refers to; assets in the same folder share them.
@@ -133,7 +133,7 @@ class FileOwners {
         problems_.add(
             {}, "E-DUPLICATE-OUTPUT",
             same ? fmt::format("'{}' is written for {} and for {}", path.string(), other.name, asset.name)
-                 : fmt::format("'{}' for {} and '{}' for {} are one file where case does not count",
+                 : fmt::format("'{}' for {} and '{}' for {} are the same file if case is ignored",
                                other.path.string(), other.name, path.string(), asset.name),
             hint_of(other.input, asset.input));
     }
@@ -143,10 +143,11 @@ class FileOwners {
         const auto lower = [](const fs::path& path) { return lower_case(path.string()); };
         const bool are_two = !one.empty() && !other.empty() && one != other;
         if (are_two && lower(one) == lower(other))
-            return "their inputs differ in the case of letters only: rename one of them, or leave it out";
+            return "the input names differ only in case: rename or exclude one of them";
         if (are_two && one.filename() != other.filename() && lower(one.stem()) == lower(other.stem()))
-            return "their inputs differ in the suffix only: write: \"${input.name}.glb\" has it in the name; "
-                   "if one of them is no mesh, name the suffix in the pattern: --input 'scans/**/*.ply'";
+            return "the input names differ only in the suffix: use write: \"${input.name}.glb\" to keep the "
+                   "suffix; to exclude files that are not meshes, give it in the pattern: --input "
+                   "'scans/**/*.ply'";
         return "name outputs by a param that differs: write: \"${input.stem}.glb\"; --base sets the folder "
                "that is mirrored";
     }

@@ -174,8 +174,8 @@ class BatchRun {
     Outcome run_asset(const Work& work, std::optional<Done>& done) {
         Problems problems;
         const auto plan = settings_.plan(work.asset, problems);
-        problems.throw_if_any(ErrorKind::usage); // it was planned before, so the pipeline has changed since
-        std::vector<Stamp> before;               // from before reading
+        problems.throw_if_any(ErrorKind::usage); // the pipeline changed after it was planned
+        std::vector<Stamp> before;               // stamps from before reading
         for (const auto& input : work.inputs)
             if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
         std::vector<Diagnostic> warnings;
@@ -268,7 +268,7 @@ class BatchRun {
         stamp.bytes = error ? 0 : size;
         try {
             if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
-        } catch (const Error&) { // it is gone: then it is never as it was
+        } catch (const Error&) { // a missing file counts as changed
         }
     }
     Stamp complete(Stamp stamp) const {
@@ -298,8 +298,8 @@ class BatchRun {
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
 
-    /// Registers an output. File names known only at run time (of parts) may give two assets the same output,
-    /// or make it the input of another asset. Throws output before anything is written.
+    /// Registers an output. File names known only at run time (of parts) may give two assets the same
+    /// output, or make it the input of another asset. Throws an output error before anything is written.
     void claim(const Asset& asset, const io::Outputs::File& file) {
         if (!file.stream.empty() || file.is_input) return;
         const fs::path self = io::identity(file.resolved);
@@ -312,7 +312,7 @@ class BatchRun {
         const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
         if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
         throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
-                    fmt::format("'{}' is written for {}, too, with other contents", file.target.string(),
+                    fmt::format("'{}' is also written for {}, with different contents", file.target.string(),
                                 first->second.first),
                     "name it by the asset: ${input.stem}");
     }
@@ -338,9 +338,9 @@ class BatchRun {
         if (!all_made) { // the outputs of assets that did not run are unknown
             warn(Diagnostic{Severity::warning,
                             "W-PRUNE",
-                            "nothing is pruned, because not all assets were made",
+                            "nothing was pruned, because not all assets succeeded",
                             {},
-                            "run the batch again when they are"});
+                            "run the batch again when all assets succeed"});
             return;
         }
         std::set<std::string> current = current_outputs(), names;
@@ -373,10 +373,10 @@ class BatchRun {
         if (names.empty()) return;
         warn(Diagnostic{Severity::warning,
                         "W-PRUNE",
-                        fmt::format("what was made of {} is not pruned: {} out of reach", list_of(names),
-                                    names.size() == 1 ? "it is" : "they are"),
+                        fmt::format("the outputs of {} were not pruned, because {} cannot be reached",
+                                    list_of(names), names.size() == 1 ? "it" : "they"),
                         {},
-                        "is the disk there?"});
+                        "mount the disk or folder that has the inputs"});
     }
 
     static std::string list_of(const std::vector<std::string>& names) {
@@ -407,7 +407,7 @@ class BatchRun {
     std::mutex guard_; ///< protects all following members
     Journal journal_;
     Summary summary_;
-    std::vector<bool> started_; ///< and not yet finished
+    std::vector<bool> started_; ///< started jobs that are not yet finished
     bool over_ = false;
     std::map<fs::path, std::string> sources_; ///< by identity: inputs, and their assets
     /// By identity: outputs, their assets, and their digests.

@@ -36,19 +36,19 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
     std::vector<NamedChoice<Verdict>> verdicts;
     for (const Verdict v : {Verdict::ok, Verdict::failed, Verdict::interrupted, Verdict::not_run})
         verdicts.push_back({verdict_word(v), v, ""});
-    d.field("asset", asset_name, "Its input, or what names its row of the table");
+    d.field("asset", asset_name, "The input, or the name of the row in the table.");
     d.choice("verdict", of_outcome(&Outcome::verdict), verdicts, "");
     d.field("exit_code", of_outcome(&Outcome::exit_code), "");
     for (const Column& column : columns())
         d.field(
             column.key, [value = column.value](const AssetOutcome& one) { return one.out->figures.*value; },
             column.help);
-    d.field("outputs", of_outcome(&Outcome::outputs), "From the output folder");
-    refer(d.list("errors", of_outcome(&Outcome::errors), "Why it failed",
+    d.field("outputs", of_outcome(&Outcome::outputs), "The written files, relative to the output folder.");
+    refer(d.list("errors", of_outcome(&Outcome::errors), "The errors of the asset.",
                  report::declare_diagnostic<Diagnostic>),
           "diagnostic");
     // Without marks, which are unknown for skipped assets.
-    d.list("warnings", of_outcome(&Outcome::warnings), "What its run warned of",
+    d.list("warnings", of_outcome(&Outcome::warnings), "The warnings of the asset.",
            [](DeclareFields<Diagnostic>& w) {
                w.field("id", &Diagnostic::id, "");
                w.field("message", &Diagnostic::message, "");
@@ -77,16 +77,16 @@ const Fields& summary_fields() {
         report::declare_format(d);
         report::declare_tool(d);
         d.field("pipeline", &Summary::pipeline, "");
-        d.field("passed", is_passed, "All assets are ok, and so is the batch");
-        d.field("exit_code", &Summary::exit_code, "The most severe of all assets");
+        d.field("passed", is_passed, "Whether all assets are ok and the batch has no errors.");
+        d.field("exit_code", &Summary::exit_code, "The most severe exit code of all assets.");
         d.object(
             "counts", [](const Summary& summary) -> const Summary& { return summary; }, "", declare_counts);
-        refer(d.list("errors", &Summary::errors, "Of the batch as a whole",
+        refer(d.list("errors", &Summary::errors, "The errors of the batch itself.",
                      report::declare_diagnostic<Diagnostic>),
               "diagnostic");
         d.list(
             "assets", [](const Summary& summary) { return outcomes_of(summary, worst_first(summary)); },
-            "The most severe failures first", declare_asset);
+            "The assets, the most severe failures first.", declare_asset);
     });
     return fields;
 }

@@ -74,7 +74,8 @@ std::string totals(const Summary& summary, BatchForm form) {
     for (const auto& out : summary.outcomes) kept += out.kept;
     std::string text = fmt::format("{}: {} ok", counted(summary.assets.size(), "asset"),
                                    count(summary, Outcome::Verdict::ok));
-    if (form == BatchForm::terminal && kept > 0) text += fmt::format(" ({} kept from before)", kept);
+    if (form == BatchForm::terminal && kept > 0)
+        text += fmt::format(" ({} kept from an earlier batch)", kept);
     for (const auto verdict :
          {Outcome::Verdict::failed, Outcome::Verdict::interrupted, Outcome::Verdict::not_run})
         if (const auto n = count(summary, verdict); n > 0)

@@ -73,8 +73,8 @@ class DepthLimit : public nlohmann::json_sax<Json> {
 
 namespace {
 
-/// The library writes each byte by a virtual call; this does not. RFC 8949; values that JSON does not have
-/// become null.
+/// Writes CBOR (RFC 8949) without the library's virtual call for each byte. Values that JSON lacks become
+/// null.
 class CborWriter {
   public:
     explicit CborWriter(io::Bytes& out) : out_(out) {}

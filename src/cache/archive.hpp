@@ -20,7 +20,8 @@
 
 namespace facetmill::cache {
 
-/// Specialised for each record: static void each(auto& record, auto&& take) calls take(field, field, ...).
+/// Lists the fields of a record. Each specialisation has static void each(auto& record, auto&& take), which
+/// calls take(field, field, ...).
 template <class T>
 struct Members;
 
@@ -36,7 +37,7 @@ struct Last;
 template <class T>
 concept Number = std::is_arithmetic_v<T>;
 
-/// Truncated bytes, or bytes that ByteWriter did not write.
+/// Thrown for truncated bytes, or bytes that ByteWriter did not write.
 struct Corrupt : std::exception {
     const char* what() const noexcept override { return "the bytes are not as they were written"; }
 };
@@ -44,7 +45,7 @@ struct Corrupt : std::exception {
 /// Throws Corrupt for invalid CBOR, or nesting of more than 200 levels.
 [[nodiscard]] Json json_of_cbor(io::Span cbor);
 
-/// Points as arrays of three numbers each; null for null.
+/// Points as arrays of three numbers; null for null.
 [[nodiscard]] inline const double* coordinates(const Vec3* points) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     return reinterpret_cast<const double*>(points);
@@ -57,7 +58,7 @@ class ByteWriter {
     io::Bytes bytes;
 
     ByteWriter() = default;
-    /// Passes the bytes to take in pieces instead of collecting them; the last piece with flush().
+    /// Passes the bytes to `take` in pieces instead of collecting them. flush() passes the last piece.
     explicit ByteWriter(std::function<void(io::Span)> take) : take_(std::move(take)) {}
     void flush() {
         if (take_) take_(bytes);
@@ -99,7 +100,7 @@ class ByteWriter {
         count(text.size());
         raw(text.data(), text.size());
     }
-    /// As CBOR.
+    /// Writes JSON as CBOR.
     void put(const Json& json);
     template <Record R>
     void put(const R& record) {
@@ -143,15 +144,15 @@ class ByteWriter {
         std::visit([this](const auto& all) { put(all); }, data);
     }
 
-    /// As floats, if that is lossless for all.
+    /// Writes doubles, as floats if that is lossless for all.
     void doubles(const double* from, std::size_t n);
-    /// With as few bytes per number as the largest needs.
+    /// Writes indices with as few bytes per number as the largest needs.
     void indices(const std::vector<std::uint32_t>& all);
 
     std::function<void(io::Span)> take_;
 };
 
-/// Throws Corrupt for bytes that a ByteWriter would not have written.
+/// Reads bytes. Throws Corrupt for bytes that a ByteWriter would not have written.
 class ByteReader {
   public:
     explicit ByteReader(io::Span bytes) : left_(bytes) {}
@@ -176,7 +177,7 @@ class ByteReader {
         const io::Span from = take(size);
         if (size > 0) std::memcpy(to, from.data(), size);
     }
-    /// A count of items of at least `each` bytes.
+    /// Reads a count of items of at least `each` bytes.
     std::size_t count(std::size_t each) {
         std::uint64_t n = 0;
         get(n);
@@ -225,7 +226,7 @@ class ByteReader {
             all.resize(count(sizeof(T)));
             raw(all.data(), all.size() * sizeof(T));
         } else {
-            all.clear(); // one by one, so that an excessive count stops at the end of the bytes
+            all.clear(); // adds items one by one, so that an excessive count stops at the end of the bytes
             for (std::size_t n = count(1); n > 0; --n) get(all.emplace_back());
         }
     }

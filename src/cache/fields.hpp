@@ -40,7 +40,7 @@ FACETMILL_STORED(report::PartChange, part, change)
 FACETMILL_STORED(io::ByteKinds, geometry, textures, json)
 FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back, kinds)
 
-/// Without its mark, which comes from the step.
+/// Stored without its mark, which comes from the step.
 template <>
 struct Members<Diagnostic> {
     static void each(auto& record, auto&& take) {
@@ -50,7 +50,7 @@ struct Members<Diagnostic> {
     }
 };
 
-/// Without data that the run sets for every stage: its name, position and options, times, pictures.
+/// Stored without data that the run sets for every stage: its name, position and options, times, pictures.
 template <>
 struct Members<report::StageRecord> {
     static void each(auto& record, auto&& take) {

@@ -32,7 +32,7 @@ std::optional<T> read_from(io::Span bytes) {
         return value;
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception&) { // Corrupt, or what a library says of bytes that nobody wrote
+    } catch (const std::exception&) { // Corrupt, or a library's error for invalid bytes
         return {};
     }
 }

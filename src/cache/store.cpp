@@ -93,9 +93,9 @@ void read_more(const Descriptor& file, io::Bytes& bytes, std::size_t more) {
     bytes.resize(at + read_whole(file, std::span(bytes).subspan(at)));
 }
 
-/// Stops reading if the beginning is not an entry of that name, and reads nothing of an entry beyond the
-/// limit. The result is then shorter than a head. None if there is no file of this user. Reads instead of
-/// mapping, because a file that is truncated while mapped would end the process.
+/// Reads an entry. Stops if the beginning is not an entry with this name, or the entry exceeds the limit;
+/// the result is then shorter than a head. None without a file of this user. Reads instead of mapping,
+/// because a file that is truncated while mapped would end the process.
 std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std::uint64_t max_bytes) {
     const Descriptor file = open_file(path, {.follows_links = false, .waits = false});
     const auto about = file ? status_of(file) : std::nullopt;
@@ -123,12 +123,12 @@ constexpr std::uint64_t reserve = std::uint64_t{64} << 20;
 
 bool has_space(const fs::path& folder, std::uint64_t bytes) {
     const auto space = free_space(folder);
-    return !space || *space >= 2 * bytes + reserve; // otherwise writing fails
+    return !space || *space >= 2 * bytes + reserve; // if unknown, tries to write
 }
 
-/// Measured on slow machines; replaced by the store's own measurements.
+/// Measured on slow machines. The store's own measurements replace it.
 constexpr double usual_bytes_per_second = 150e6;
-/// For any file: three system calls, and sometimes a folder.
+/// The time for any file: three system calls, and sometimes a folder.
 constexpr double seconds_of_a_file = 0.0005;
 
 } // namespace
@@ -234,7 +234,7 @@ struct PartFile {
 
     explicit PartFile(const fs::path& folder) {
         static std::atomic<std::uint64_t> number{0}; // stores of the same process may share a folder
-        constexpr int max_attempts = 1000;           // for leftovers of a process with the same id
+        constexpr int max_attempts = 1000; // tries further names if a process with the same id left files
         for (int attempt = 0;; ++attempt) {
             path = folder / fmt::format(".{}-{}{}", process_id(), number++, temporary);
             clean_up = io::clean_up_file(path);
@@ -252,7 +252,7 @@ struct PartFile {
         remove_file(path);
         io::keep(clean_up);
     }
-    /// Renames the file to its final name. False if the cache was cleared meanwhile. Throws output.
+    /// Renames the file to its final name. False if the cache was cleared meanwhile. Throws an output error.
     bool take_name(const fs::path& name) {
         const bool renamed = file.close() && rename_file(path, name);
         if (!renamed && errno != ENOENT) io::cannot_write(path, errno);
@@ -377,7 +377,7 @@ Contents Store::contents() const {
     return all;
 }
 
-/// The caller holds the lock.
+/// The caller must hold the lock.
 Contents Store::shrink(std::uint64_t limit) {
     struct Entry {
         std::int64_t used;

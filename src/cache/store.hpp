@@ -21,11 +21,11 @@ enum class Kind { memory, scene, last_run };
 struct StoreSettings {
     std::filesystem::path folder;
     std::uint64_t max_bytes = 0;
-    bool everything = false; ///< also stores results that are cheap to compute (tests)
-    /// Called for problems: W-CACHE, once, when the store cannot be written; notes about corrupt entries. May
+    bool everything = false; ///< also stores results that are cheap to compute, for tests
+    /// Receives problems: W-CACHE once if the store cannot be written, and notes about corrupt entries. May
     /// be empty.
     std::function<void(const Diagnostic&)> tell = {};
-    double max_share = 1; ///< of the entries plus the free space of their disk
+    double max_share = 1; ///< share of the entries' size plus the free space of their disk
 };
 
 /// The number and size of entries.
@@ -50,7 +50,7 @@ class Store {
     /// The stored bytes, or none. An entry with changed bytes is removed, with a note. A requested entry
     /// counts as used, and stays as long as this object or another user of it in the process exists.
     std::optional<io::Bytes> get(const std::string& key, Kind kind);
-    /// True if there is an entry, which then counts as used.
+    /// True if the entry exists. It then counts as used.
     bool has(const std::string& key, Kind kind);
     /// Stores bytes; returns true if the entry exists afterwards. Fails if it cannot be written, the
     /// remaining entries leave no room, or less than twice its size plus 64 MiB is free on disk. Replaces an
@@ -75,7 +75,7 @@ class Store {
     /// Removes leftovers of processes that ended early, and entries until the limit is met. Returns what was
     /// removed.
     Contents collect();
-    /// Removes all entries. Returns what was removed.
+    /// Removes all entries. Returns the removed contents.
     Contents clear();
     const StoreSettings& settings() const { return settings_; }
 
@@ -98,9 +98,9 @@ class Store {
         std::optional<std::uint64_t> total;        ///< current size, if known
         std::uint64_t limit = 0;                   ///< current limit
         std::optional<double> seconds_to_count;    ///< the expected listing time, until the size is known
-        std::uint64_t since_counted = 0;           ///< bytes put since then: other processes also write
-        bool is_told_full = false;                 ///< the full disk was reported
-        bool broken = false;                       ///< writing failed: not tried again
+        std::uint64_t since_counted = 0; ///< bytes put since counting, because other processes also write
+        bool is_told_full = false;       ///< the full disk was reported
+        bool broken = false;             ///< writing failed and is not tried again
         double bytes_per_second = 0;
     };
 

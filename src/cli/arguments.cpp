@@ -42,8 +42,9 @@ CLI::Validator one_of(const Argument& a) {
         [called = a.names, choices = a.choices](const std::string& text) -> std::string {
             if (std::find(choices.begin(), choices.end(), text) != choices.end()) return {};
             const std::string name = std::string(split_at_commas(called).back());
-            throw NotAChoice(fmt::format("{} is one of {}, found '{}'", name, fmt::join(choices, ", "), text),
-                             text, did_you_mean(text, choices));
+            throw NotAChoice(
+                fmt::format("{} must be one of {}, found '{}'", name, fmt::join(choices, ", "), text), text,
+                did_you_mean(text, choices));
         },
         fmt::format("{{{}}}", fmt::join(a.choices, ",")));
 }
@@ -78,7 +79,7 @@ CLI::Option* make(CLI::App& app, const Argument& a) {
         return app.add_option_function<std::string>(a.names, *call, a.help);
     if (const auto* list = std::get_if<std::vector<std::string>*>(&a.target)) {
         CLI::Option* option = app.add_option(a.names, **list, a.help);
-        if (a.at_commas && !a.in_one_word) option->delimiter(','); // which drops empty values
+        if (a.at_commas && !a.in_one_word) option->delimiter(','); // CLI11 drops empty values
         if (a.names.starts_with("-") && (!a.at_commas || a.in_one_word)) option->allow_extra_args(false);
         return option;
     }
@@ -156,9 +157,9 @@ Parsed Arguments::parse(const std::string& command, const std::string& about, st
     CLI::App app{about, command};
     app.formatter(std::make_shared<Help>(the_rest));
     app.allow_extras();
-    app.set_help_flag("-h,--help", "Print this help and exit.");
+    app.set_help_flag("-h,--help", "Prints this help and exits.");
     for (const auto& a : all_) declare(app, a);
-    std::vector<std::string> reversed(words.rbegin(), words.rend()); // in the order that CLI11 expects
+    std::vector<std::string> reversed(words.rbegin(), words.rend()); // CLI11 expects the reversed order
     try {
         app.parse(reversed);
     } catch (const CLI::CallForHelp&) {

@@ -75,7 +75,7 @@ struct Argument {
 };
 
 /// A value that must name a file to write with this ending. An input after the option can thus not be taken
-/// for the value and overwritten. The target throws usage (the id), which shows the example.
+/// for the value and overwritten. The target throws a usage error (the id), which shows the example.
 [[nodiscard]] Argument::Target written_file(const std::string& option, const std::string& ending,
                                             const std::string& id, const std::string& example,
                                             std::function<void(const std::string&)> take);

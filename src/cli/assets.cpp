@@ -8,24 +8,24 @@ namespace facetmill::cli {
 void add_asset_options(Arguments& arguments, AssetOptions& options) {
     arguments.add("PIPELINE", &options.pipeline, "A YAML file, - or a ready pipeline.").required();
     arguments.add("--input", &options.sources.patterns,
-                  "A file, or a pattern in quotes; ** is any number of folders.");
+                  "A file, or a pattern in quotes. ** matches any number of folders.");
     arguments.add("--inputs-from", &options.sources.lists,
-                  "A file of names, or -: one per line, or each ended by a NUL.");
-    arguments.add("--table", &options.sources.table,
-                  "CSV with a header, or a YAML list of maps: one row per asset, one column per param.");
-    arguments.add("--base", &options.sources.base,
-                  "The folder that is mirrored. Default: the part of a pattern before its wildcards.");
-    arguments
-        .add("-o,--output-dir", &options.common.output_dir,
-             "The folder that the paths of outputs are relative to.")
+                  "A file of names, or -. It contains one name per line, or names that end with NUL.");
+    arguments.add(
+        "--table", &options.sources.table,
+        "A CSV file with a header, or a YAML list of maps: one row per asset, one column per param.");
+    arguments.add(
+        "--base", &options.sources.base,
+        "The input folder whose structure is mirrored. Default: the part of a pattern before its wildcards.");
+    arguments.add("-o,--output-dir", &options.common.output_dir, "The folder for relative paths of outputs.")
         .required();
     add_param_options(arguments, options.common);
 }
 
 void add_memory_option(Arguments& arguments, AssetOptions& options, const std::string& jobs) {
     arguments.add("--memory", &options.memory,
-                  fmt::format("The memory for all {} that run at the same time:\n8G, 500MB, 50% of what is "
-                              "available. Default: 75%.",
+                  fmt::format("The memory for all {} that run at the same time:\n8G, 500MB, or 50% of the "
+                              "available memory. Default: 75%.",
                               jobs));
 }
 
@@ -34,11 +34,12 @@ void check_sources(const AssetOptions& options, const CommandLine& line, Problem
     const bool files = !sources.patterns.empty() || !sources.lists.empty();
     if (!files && sources.table.empty())
         problems.add(line.mark(0), "E-ARGUMENT",
-                     "there are no assets without --input, --inputs-from or --table",
-                     "--input 'scans/**/*.ply'");
+                     "there are no assets: give --input, --inputs-from or --table",
+                     "for example --input 'scans/**/*.ply'");
     if (files && !sources.table.empty())
-        problems.add(line.find("--table"), "E-CONFLICT", "--table does not go with --input and --inputs-from",
-                     "its column input names the inputs");
+        problems.add(line.find("--table"), "E-CONFLICT",
+                     "--table cannot be combined with --input and --inputs-from",
+                     "use its column input for the inputs");
     int streams = options.pipeline == "-";
     for (const auto& list : sources.lists) streams += list == "-";
     streams += sources.table == "-";

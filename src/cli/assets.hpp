@@ -13,7 +13,7 @@ struct AssetOptions {
     std::string memory; ///< as given
 };
 
-/// PIPELINE, --input, --inputs-from, --table, --base, --output-dir, -D and --set.
+/// Adds PIPELINE, --input, --inputs-from, --table, --base, --output-dir, -D and --set.
 void add_asset_options(Arguments& arguments, AssetOptions& options);
 
 /// --memory: for all `jobs` ("assets") that run in parallel.
@@ -22,7 +22,7 @@ void add_memory_option(Arguments& arguments, AssetOptions& options, const std::s
 /// Adds errors in the sources: none given, conflicting sources, standard input used twice.
 void check_sources(const AssetOptions& options, const CommandLine& line, Problems& problems);
 
-/// As batch::find_assets, with messages that point into the command line. prune: assets of earlier batches
+/// Like batch::find_assets, with messages that point into the command line. prune: assets of earlier batches
 /// may no longer exist.
 [[nodiscard]] std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line,
                                                   bool prune = false);
@@ -30,8 +30,8 @@ void check_sources(const AssetOptions& options, const CommandLine& line, Problem
 /// The common settings with this asset's params, which take precedence, and its folder.
 [[nodiscard]] pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings);
 
-/// Sets the pipeline, the output folder and the planner of an asset. Throws missing (E-FILE) if the pipeline
-/// does not exist.
+/// Sets the pipeline, the output folder and the planner of an asset. Throws a missing-file error (E-FILE) if
+/// the pipeline does not exist.
 void set_planner(batch::Settings& settings, const AssetOptions& options,
                  const pipeline::PlanSettings& of_all);
 

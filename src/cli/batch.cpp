@@ -17,13 +17,15 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* batch_examples =
-    R"(An asset is one run of the pipeline. With --input, each input is an asset, given to the pipeline as the param
-`input`. With --table, each row is an asset, whose columns are params; a row overrides -D.
+    R"(Each asset is one run of the pipeline. With --input, each input is an asset and becomes the param `input`. With
+--table, each row is an asset and its columns become params. A row overrides -D.
 
-Folders are mirrored: with 'scans/**/*.ply', the outputs of scans/a/b.ply are written to OUT/a; with lists and
-tables, folders are mirrored from the working directory. The outputs of an asset appear together. Completed
-assets are recorded in OUT/.facetmill-batch.NAME-*.jsonl; the next batch skips those whose inputs, options,
-outputs and program are unchanged, also after a crash. The exit code is the most severe that occurred, in this
+The structure of input folders is mirrored. With 'scans/**/*.ply', the outputs of scans/a/b.ply are written to
+OUT/a. With lists and tables, folders are mirrored from the working directory. All outputs of an asset appear
+together.
+
+OUT/.facetmill-batch.NAME-*.jsonl records completed assets. The next batch skips them if their inputs, options,
+outputs and program are unchanged, even after a crash. The exit code is the most severe of all assets, in this
 order: 70, 2, 4, 7, 5, 6, 3, 1.
 
 Examples
@@ -41,18 +43,17 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_asset_options(arguments, options);
     arguments
         .add("-j,--jobs", &options.common.threads,
-             "Assets at the same time, and threads for all of them.\nDefault: jobserver, FACETMILL_JOBS, "
-             "cores.")
+             "The number of assets that run at the same time, and of threads for all of them.\nDefault: "
+             "jobserver, FACETMILL_JOBS, or the number of cores.")
         .between(1, 4096);
     add_memory_option(arguments, options, "assets");
     arguments.add("-k,--keep-going", &options.keep_going,
-                  "Runs all assets. Default: no asset starts after one has failed.");
+                  "Runs all assets. By default, no asset starts after one has failed.");
     arguments.add("--prune", &options.prune,
                   "Removes outputs of earlier batches whose input no longer exists.");
     arguments.add("--report", &options.common.reports,
-                  "Also write the summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
-    arguments.add("--timings", &options.common.timings,
-                  "Write times, and which assets were skipped, to F.json.");
+                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
+    arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
     add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
     add_sandbox_option(arguments, options.common.sandbox);

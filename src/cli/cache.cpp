@@ -13,17 +13,18 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* cache_examples =
-    R"(The cache stores results of stages for later runs (run, pipe, batch), which give the same bytes with it as without.
-The key of a result is made of everything that it depends on: inputs, options, the previous stages, this program and its
-libraries. A result is stored if that takes at most a tenth of the time of the stages that it saves. The folder is
-$XDG_CACHE_HOME/facetmill or ~/.cache/facetmill; it may be deleted at any time. The least recently used entries are
-removed first, when there are more than 5 GiB or a tenth of the disk's free space.
+    R"(The cache stores results of stages for later runs (run, pipe, batch). Outputs are byte for byte the same with and
+without it. The key of a result contains everything that it depends on: inputs, options, the previous stages, this
+program and its libraries. A result is stored if storing takes at most a tenth of the time of its stages.
 
---no-cache leaves a run without it. FACETMILL_CACHE names another folder, or is off; FACETMILL_CACHE_SIZE is another
-limit (20G). If CI=true, there is no cache unless FACETMILL_CACHE names a folder, or with --cache.
+The folder is $XDG_CACHE_HOME/facetmill or ~/.cache/facetmill. You can delete it at any time. If the cache exceeds
+5 GiB or a tenth of the free disk space, the least recently used entries are removed first.
 
-  stats   shows the folder, and how much is in it
-  gc      removes leftovers of runs that were killed, and entries beyond the limit
+--no-cache turns the cache off for one run. FACETMILL_CACHE sets another folder, and the value off turns the cache off. FACETMILL_CACHE_SIZE sets another limit (20G). If CI=true, the cache is only used with --cache, or if
+FACETMILL_CACHE names a folder.
+
+  stats   shows the folder and the size of its contents
+  gc      removes leftovers of killed runs, and entries beyond the limit
   clear   removes everything
 
 Examples
@@ -51,8 +52,8 @@ void tell_contents(const cache::Store& store, bool json) {
 int cache_work(const std::string& action, bool json) {
     const auto folder = cache::folder();
     if (!folder)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "no folder for a cache is known",
-                    "FACETMILL_CACHE names one (and is not off), or HOME, which must be this user's");
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "the cache has no folder",
+                    "set FACETMILL_CACHE to a folder, or HOME to a folder of this user");
     const auto limit = cache::size_limit();
     cache::Store store({.folder = *folder, .max_bytes = limit.bytes, .max_share = limit.share});
     if (action == "stats") {
@@ -76,7 +77,7 @@ Command cache_command() {
                 auto json = std::make_shared<bool>(false);
                 arguments.add("ACTION", action.get(), "stats, gc or clear. Default: stats.")
                     .one_of({"stats", "gc", "clear"});
-                arguments.add("--json", json.get(), "Prints JSON (stats).");
+                arguments.add("--json", json.get(), "Prints JSON (for stats).");
                 return [=](const Invocation&) { return cache_work(*action, *json); };
             }};
 }

@@ -5,8 +5,7 @@
 namespace facetmill::cli {
 
 void add_cache_options(Arguments& arguments, CacheOptions& options) {
-    arguments.add("--no-cache", &options.off,
-                  "Neither takes results of stages from the cache nor stores them.");
+    arguments.add("--no-cache", &options.off, "Neither reads nor stores results of stages in the cache.");
     arguments.add("--cache", &options.on,
                   "Uses the cache even if CI=true, and warns if it cannot be written.");
     arguments.add("--cache-everything", &options.everything, "Also stores results that are cheap to compute.")
@@ -34,13 +33,13 @@ std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::
                                         const Console& console, bool tells_all) {
     if (options.on && options.off)
         throw Error(ErrorKind::usage, "E-CONFLICT", "--cache and --no-cache exclude each other",
-                    "leave one of them out");
+                    "remove one of them");
     const bool asked = is_asked_for(options);
     if (is_left_out(options)) return nullptr;
     const auto folder = cache::folder();
     if (!folder && options.on)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder for it",
-                    "FACETMILL_CACHE names one (and is not off), or HOME, which must be this user's");
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder",
+                    "set FACETMILL_CACHE to a folder, or HOME to a folder of this user");
     if (!folder) return nullptr;
     const auto limit = cache::size_limit();
     std::function<void(const Diagnostic&)> tell = [&console, allowed, asked, tells_all](const Diagnostic& d) {

@@ -7,9 +7,9 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* check_examples =
-    R"(All errors of all files are reported. Params without a value are assumed to be valid, unless -D gives a value. Of
-inputs that exist, the headers are read (format, unit); a pattern must match a file. Exit code 2: a pipeline is wrong.
-6: only an input is malformed. 3: only a pattern matches nothing.
+    R"(The command reports all errors of all files. Params without a value count as valid; use -D to give values. If
+inputs exist, their headers are read (format, unit). A pattern must match a file. Exit codes: 2 if a pipeline has
+an error, 6 if only an input is malformed, 3 if only a pattern matches nothing.
 
 Examples
   facetmill check pipelines/*.yaml

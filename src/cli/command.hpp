@@ -51,7 +51,7 @@ struct Command {
     const char* stage = nullptr; ///< the stage whose options the command also takes and --help lists; or null
 };
 
-/// In the order of --help.
+/// All commands, in the order of --help.
 const std::vector<Command>& commands();
 
 [[nodiscard]] Command run_command();
@@ -72,7 +72,7 @@ const std::vector<Command>& commands();
 [[nodiscard]] Command docs_command();
 [[nodiscard]] Command completions_command();
 
-/// --quiet, -v, --log.
+/// Adds --quiet, -v and --log.
 void add_message_options(Arguments& arguments, Console& console);
 
 /// Runs the whole program and returns the exit code. Throws Error. Leaves quiet, colours and so on in

@@ -15,13 +15,14 @@ namespace fs = std::filesystem;
 
 void add_sandbox_option(Arguments& arguments, SandboxOptions& options) {
     arguments.add("--no-sandbox", &options.off,
-                  "Keeps access to all files and calls of the system. Default: only what the plan names.");
+                  "Turns the sandbox off. By default, facetmill can only access the files in the plan and "
+                  "the system calls that it needs.");
 }
 
 void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders) {
     arguments.add("--asset-root", &folders,
-                  "A folder: mesh files may name images, buffers and materials anywhere below it\n"
-                  "(../textures/wood.png), not only beside or below themselves. May be repeated.");
+                  "A folder. Mesh files may use images, buffers and materials anywhere below "
+                  "it\n(../textures/wood.png), not only in their own folder. May be repeated.");
 }
 
 io::ReadSettings read_settings(const std::vector<std::string>& asset_roots) {
@@ -75,10 +76,10 @@ void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Fold
 
 std::string told(const Protections& on) {
     const std::string files = on.files > 0 ? fmt::format("files (Landlock, version {})", on.files) : "";
-    const std::string calls = on.calls ? "calls of the system (seccomp)" : "";
+    const std::string calls = on.calls ? "system calls (seccomp)" : "";
     return on.any() ? fmt::format("the sandbox limits {}{}{}", files, on.files > 0 && on.calls ? " and " : "",
                                   calls)
-                    : "there is no sandbox: this kernel, or this build, has none";
+                    : "there is no sandbox: this kernel or this build does not support it";
 }
 
 } // namespace

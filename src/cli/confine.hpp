@@ -14,10 +14,10 @@ struct SandboxOptions {
     bool off = false;
 };
 
-/// --no-sandbox.
+/// Adds --no-sandbox.
 void add_sandbox_option(Arguments& arguments, SandboxOptions& options);
 
-/// --asset-root, repeatable.
+/// Adds --asset-root, which is repeatable.
 void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders);
 
 /// The read settings with these asset roots.
@@ -39,7 +39,7 @@ void start_programs(const pipeline::Plan& plan);
 /// Call it before starting threads. Creates missing output folders, and removes them at the end if they stay
 /// empty. Reports the active restrictions with --verbose.
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console);
-/// The same for system calls only, for commands that read further files not yet known.
+/// Drops access to unneeded system calls only, for commands that read files not yet known.
 void confine_calls_only(const SandboxOptions& options);
 
 } // namespace facetmill::cli

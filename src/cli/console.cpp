@@ -31,8 +31,8 @@ void show(std::string_view text) { print(for_terminal(text)); }
 
 namespace {
 
-/// A message on standard error. When nobody reads it any more (facetmill run ... 2>&1 | head), the run goes
-/// on: what counts is the outputs and the exit code.
+/// Writes a message to standard error. If the reader has closed it (facetmill run ... 2>&1 | head), the run
+/// continues, because only the outputs and the exit code matter.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
     const std::string text = fmt::format(format, std::forward<Args>(args)...);
@@ -86,7 +86,7 @@ class Bar : public Progress {
         if (drawer_.joinable()) return;
         try {
             drawer_ = std::thread([this] { draw_until_done(); });
-        } catch (const std::system_error&) { // no further thread: it is drawn less often
+        } catch (const std::system_error&) { // without a further thread, the bar is drawn less often
         }
     }
 
@@ -109,9 +109,9 @@ class Bar : public Progress {
     double filled_ = 0, until_ = 0; ///< shares of the bar, before the stage and after it
     std::string what_;
     Stopwatch watch_;
-    std::atomic<double> share_ = 0, told_ = 0; ///< the latter: when the former was told, in seconds
+    std::atomic<double> share_ = 0, told_ = 0; ///< the reported share, and the time of that report in seconds
     bool drawn_ = false, over_ = false;
-    std::mutex guard_; ///< of what stands above
+    std::mutex guard_; ///< protects the members above
     std::condition_variable wake_;
     std::thread drawer_;
 };
@@ -148,7 +148,7 @@ class Lines : public Progress {
 
 namespace {
 
-/// In whole seconds: it is read at a glance, and the time left is a guess.
+/// The time in whole seconds, because the remaining time is only an estimate.
 std::string in_seconds(double seconds) {
     return seconds < 60 ? fmt::format("{:.0f} s", std::ceil(seconds)) : timed(seconds);
 }
@@ -156,10 +156,10 @@ std::string in_seconds(double seconds) {
 } // namespace
 
 std::string how_far(double seconds, const PrintedMessage& last) {
-    constexpr double long_enough = 1; // what is over sooner needs no number
+    constexpr double long_enough = 1; // shorter work needs no number
     if (seconds < long_enough) return {};
     if (last.share <= 0 || last.share > 1 || last.seconds <= 0) return ", " + in_seconds(seconds);
-    // What comes next may tell nothing for long: meanwhile the time left goes on getting less.
+    // The next work may report nothing for long; meanwhile the remaining time continues to fall.
     const double all = std::max(last.seconds / last.share, seconds);
     return fmt::format(" {:.0f} %, about {} left", std::floor(100 * last.share), in_seconds(all - seconds));
 }
@@ -171,13 +171,14 @@ bool Console::colour() const {
 
 void Console::diagnostic(const Diagnostic& d) const {
     if (quiet && d.severity == Severity::note) return;
-    if (d.where.known() && d.where.source->name == command_line_name && !d.hint.empty()) {
+    const bool is_typed = pipe || (d.where.known() && d.where.source->name == command_line_name);
+    if (is_typed && !d.hint.empty()) {
         Diagnostic as_typed = d;
         as_typed.hint = in_pipe_syntax(d.hint);
         if (as_typed.hint != d.hint) return diagnostic(as_typed);
     }
     if (!json) {
-        // A progress bar may stand on the line.
+        // The line may contain a progress bar.
         tell("{}{}\n", terminal() ? "\r\033[K" : "", render(d, colour()));
         return;
     }

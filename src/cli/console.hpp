@@ -12,10 +12,11 @@
 
 namespace facetmill::cli {
 
-/// Writes a result to standard output. Throws output (E-WRITE) on failure, so that a full disk is not a
-/// success.
+/// Writes a result to standard output. Throws an output error (E-WRITE) on failure, so that a full disk is
+/// not a success.
 void print(std::string_view text);
-/// The same for people; control characters in names are replaced, because they could affect the terminal.
+/// Writes a result for people; control characters in names are replaced, because they could affect the
+/// terminal.
 void show(std::string_view text);
 
 /// The last reported fraction of a stage (0: none), and its time in seconds since the stage began.
@@ -33,6 +34,7 @@ class Console {
     bool quiet = false;   ///< only warnings and errors
     bool verbose = false; ///< also resolved values and every stage
     bool json = false;    ///< one JSON object per line
+    bool pipe = false;    ///< hints show options as pipe takes them
 
     /// Whether standard error is a terminal that supports colours; respects NO_COLOR and TERM=dumb.
     bool colour() const;
@@ -41,13 +43,13 @@ class Console {
     /// A message for people, without control characters; suppressed by quiet. In JSON: {"level": "info",
     /// "message": ...}.
     void say(std::string_view text) const;
-    /// The same with colours; not for JSON.
+    /// Writes a result with colours; not for JSON.
     void say(const Painted& text) const;
     /// A JSON object for programs, only with --log json.
     void event(const Json& object) const;
     /// Whether a progress line may be redrawn: on a terminal, unless messages are lines or JSON.
     bool redraws() const;
-    /// A bar on a terminal, lines with verbose, else null.
+    /// A bar on a terminal, lines with verbose, otherwise null.
     std::unique_ptr<Progress> progress() const;
 };
 

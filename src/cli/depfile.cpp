@@ -15,7 +15,7 @@ std::string make_escaped(const std::string& path, bool target) {
         if (c == '\n' || c == '\r')
             throw Error(ErrorKind::output, "E-DEPFILE",
                         "a depfile cannot name a path with a line break: " + path,
-                        "rename the file: neither Make nor Ninja can spell it");
+                        "rename the file: Make and Ninja cannot express this path");
         // Make ends the targets at a colon, and takes a % in a target for a pattern. Backslashes before an
         // escaped character are doubled; elsewhere they are plain.
         if (c == ' ' || c == '#' || c == '\t' || c == ':' || (c == '%' && target))

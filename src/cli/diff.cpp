@@ -17,17 +17,22 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* diff_examples =
-    R"(Compares counts, topology, geometry, attributes, materials, parts, and the other contents of glTF (document).
-The distance between the surfaces is measured in both directions, from samples of the area and from every vertex; if a
-file has no faces, from and to each of its points. Limits are in units of A (0.2, 2mm) or in percent of A's
-diagonal (0.5%); the default, 0.0001%, allows for the rounding of float32 coordinates. If both files have a unit or an
-up axis (their own, or that of --unit and --up), B is first converted to A's. Attributes are compared element by
-element, in the order of the files.
-Exit code 0: the files agree. 1: they differ in a section that is not ignored. 3 or 6: a file cannot be read.
-Of two folders the mesh files below them are compared by their paths, and what is left by paths without suffixes,
-where each folder has one file of that name (a.ply and a.glb). A file that only one has differs. The worst come
-first; --html F.html is then an index, with a page for each pair in the folder F beside it.
-What cannot be compared (lines, attributes of different sizes) is listed, and makes "complete" false in JSON.
+    R"(Compares counts, topology, geometry, attributes, materials, parts, and the other contents of glTF (document). The
+distance between the surfaces is measured in both directions, from samples of the area and from every vertex. If a
+file has no faces, distances are measured from and to its points.
+
+Limits are in units of A (0.2, 2mm) or in percent of A's diagonal (0.5%). The default, 0.0001%, allows for the
+rounding of float32 coordinates. If the units and up axes of both files are known (from the files, --unit or
+--up), B is first converted to A's. Attributes are compared element by element, in the order of the files.
+
+Exit codes: 0 if the files agree, 1 if they differ in a section that is not ignored, 3 or 6 if a file cannot be
+read.
+
+For two folders, mesh files are compared by their relative paths. Remaining files are compared without suffixes
+(a.ply and a.glb), if each folder has only one such file. A file that exists in only one folder counts as a
+difference. The largest differences are listed first. --html F.html writes an index, with a page for each pair in
+the folder F next to it. Contents that cannot be compared (lines, attributes of different sizes) are listed, and
+set "complete" to false in JSON.
 
 Examples
   facetmill diff scan.ply scan.glb
@@ -61,12 +66,12 @@ void check_reports(const DiffOptions& options, const CommandLine& line) {
         for (const auto& file : {options.a, options.b})
             if (std::filesystem::equivalent(path, file, none_there))
                 throw Error(ErrorKind::usage, "E-OVERWRITE",
-                            fmt::format("the report '{}' would replace what it is about", path),
+                            fmt::format("the report '{}' would overwrite one of its inputs", path),
                             "give it another name", line.value(path));
         if (!path.ends_with(".html") && !path.ends_with(".md"))
             throw Error(ErrorKind::usage, "E-REPORT",
                         fmt::format("a report of diff is .html or .md, found '{}'", path),
-                        "--json prints a comparison for programs", line.value(path));
+                        "use --json to print a comparison for programs", line.value(path));
     }
 }
 
@@ -114,7 +119,7 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
                     "give a file for A or for B", line.value("-"));
     const bool folders = is_folder(options.a);
     if (folders != is_folder(options.b) && options.a != "-" && options.b != "-")
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "one of the two is a folder, the other is none",
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "one of the two is a folder, but the other is not",
                     "give two files, or two folders", line.value(folders ? options.b : options.a));
     AllowedFiles allowed;
     if (folders)
@@ -125,8 +130,8 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
     for (const auto& [option, said] : {std::pair{"--unit", options.units}, std::pair{"--up", options.ups}})
         if (said.size() > 2)
             throw Error(ErrorKind::usage, "E-ARGUMENT",
-                        fmt::format("{} has {} values, and there are two files", option, said.size()),
-                        "give one, for both, or two, for A and for B", line.find(option));
+                        fmt::format("{} has {} values for two files", option, said.size()),
+                        "give one value for both files, or one each", line.find(option));
     check_reports(options, line);
     for (const auto& report : options.reports) {
         allow_output(allowed, report);
@@ -145,69 +150,69 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 } // namespace
 
 Command diff_command() {
-    return {"diff",
-            "Compares two mesh files, or two folders; the exit code is 1 when they differ.",
-            diff_examples,
-            {},
-            [](Arguments& arguments, Console& console) {
-                auto options = std::make_shared<DiffOptions>();
-                auto& settings = options->settings;
-                arguments
-                    .add("A", &options->a,
-                         "The mesh file to compare with, a folder of such, or - for standard input.")
-                    .required();
-                arguments.add("B", &options->b, "The other mesh file, or folder.").required();
-                arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
-                arguments.add("--rms", &options->rms,
-                              "The largest root mean square distance over the area allowed.");
-                arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
-                arguments
-                    .add("--values", &settings.attribute_limit,
-                         "The largest allowed difference of attribute values. Default: 1e-6.")
-                    .not_negative();
-                arguments
-                    .add("--ignore", &options->ignored,
-                         "Sections that do not decide:\ncounts, topology, geometry, attributes, materials, "
-                         "parts, document.")
-                    .separated_by_commas()
-                    .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
-                arguments
-                    .add("--samples", &options->samples,
-                         "Points spread over the area, each way, all of them measured.\n"
-                         "Default: 100000; rms and mean are of as many of these as they need.")
-                    .between(0, 1000000000);
-                arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
-                    .not_negative();
-                arguments.add(
-                    "--certify", &settings.deviation.certify,
-                    "Also computes a guaranteed bound of the distance, and compares --max with it.");
-                arguments
-                    .add("--unit", &options->units,
-                         "The unit of a file that states none; mm,m: of A and of B where they differ.")
-                    .separated_by_commas_alone()
-                    .one_of(stated_units());
-                arguments
-                    .add("--up", &options->ups,
-                         "The up axis of a file that states none; z,y: of A and of B where they differ.")
-                    .separated_by_commas_alone()
-                    .one_of({"y", "z"});
-                arguments
-                    .add("--html", report_named(options, "--html", ".html"),
-                         "Also writes F.html, a page with pictures of both files and of the distances.")
-                    .followed_by("F.html");
-                arguments
-                    .add("--markdown", report_named(options, "--markdown", ".md"),
-                         "Also writes F.md, for a pull request.")
-                    .followed_by("F.md");
-                arguments.add("--report", &options->others, "The same for either: F.html or F.md.");
-                arguments.add("--all", &options->all, "Also shows what is equal.");
-                arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
-                add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");
-                add_asset_root_option(arguments, options->asset_roots);
-                add_sandbox_option(arguments, options->sandbox);
-                add_message_options(arguments, console);
-                return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
-            }};
+    return {
+        "diff",
+        "Compares two mesh files or two folders. The exit code is 1 if they differ.",
+        diff_examples,
+        {},
+        [](Arguments& arguments, Console& console) {
+            auto options = std::make_shared<DiffOptions>();
+            auto& settings = options->settings;
+            arguments
+                .add("A", &options->a,
+                     "The first mesh file, a folder of mesh files, or - for standard input.")
+                .required();
+            arguments.add("B", &options->b, "The second mesh file or folder.").required();
+            arguments.add("--max", &options->maximum, "The largest allowed distance (0.2, 2mm, 0.5%).");
+            arguments.add("--rms", &options->rms,
+                          "The largest allowed root mean square distance over the area.");
+            arguments.add("--mean", &options->mean, "The largest allowed mean distance over the area.");
+            arguments
+                .add("--values", &settings.attribute_limit,
+                     "The largest allowed difference of attribute values. Default: 1e-6.")
+                .not_negative();
+            arguments
+                .add("--ignore", &options->ignored,
+                     "Sections whose differences do not matter:\ncounts, topology, geometry, attributes, "
+                     "materials, parts, document.")
+                .separated_by_commas()
+                .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
+            arguments
+                .add("--samples", &options->samples,
+                     "The number of sample points in each direction. All of them are measured.\nDefault: "
+                     "100000, and rms and mean use only as many of these as they need.")
+                .between(0, 1000000000);
+            arguments.add("--seed", &settings.deviation.seed, "The seed of the sample positions. Default: 1.")
+                .not_negative();
+            arguments.add("--certify", &settings.deviation.certify,
+                          "Also computes a guaranteed bound of the distance, and compares it with --max.");
+            arguments
+                .add("--unit", &options->units,
+                     "The unit of files without a unit. mm,m gives different units for A and B.")
+                .separated_by_commas_alone()
+                .one_of(stated_units());
+            arguments
+                .add("--up", &options->ups,
+                     "The up axis of files without an axis. z,y gives different axes for A and B.")
+                .separated_by_commas_alone()
+                .one_of({"y", "z"});
+            arguments
+                .add("--html", report_named(options, "--html", ".html"),
+                     "Also writes F.html, a page with pictures of both files and of the distances.")
+                .followed_by("F.html");
+            arguments
+                .add("--markdown", report_named(options, "--markdown", ".md"),
+                     "Also writes F.md, for a pull request.")
+                .followed_by("F.md");
+            arguments.add("--report", &options->others, "Also writes a report: F.html or F.md.");
+            arguments.add("--all", &options->all, "Also shows equal values.");
+            arguments.add("--json", &options->json, "Prints JSON (facetmill schema diff).");
+            add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");
+            add_asset_root_option(arguments, options->asset_roots);
+            add_sandbox_option(arguments, options->sandbox);
+            add_message_options(arguments, console);
+            return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
+        }};
 }
 
 } // namespace facetmill::cli

@@ -38,7 +38,8 @@ std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& tex
     Problems problems;
     const Mark mark = line.find(option);
     if (OptionType<Length>::parse(Value::scalar(text, mark), length, problems) && !(length.amount >= 0))
-        problems.add(mark, "E-RANGE", fmt::format("{} is a distance, found {}", option, text), "at least 0");
+        problems.add(mark, "E-RANGE", fmt::format("{} must be a distance, found {}", option, text),
+                     "at least 0");
     problems.throw_if_any(ErrorKind::usage);
     if (length.kind == Length::Kind::percent) return report::ComparisonSettings::Limit{length.amount, true};
     if (length.kind == Length::Kind::scene) return report::ComparisonSettings::Limit{length.amount, false};

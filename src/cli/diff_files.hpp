@@ -13,10 +13,11 @@ struct DiffOptions {
     std::string a, b, maximum, rms, mean;
     std::vector<std::string> ignored;
     report::ComparisonSettings settings;
-    std::size_t samples = SIZE_MAX;      ///< for the deviation; the default averages all samples
-    std::vector<std::string> units, ups; ///< for files that do not state them: for both, or for A and B
-    std::vector<std::string> reports;    ///< HTML and Markdown files to write
-    std::vector<std::string> others;     ///< files of --report, before they are added to reports
+    std::size_t samples = SIZE_MAX; ///< samples for the deviation; the default averages all samples
+    std::vector<std::string> units,
+        ups; ///< for files that do not state them: a value for both, or values for A and B
+    std::vector<std::string> reports; ///< HTML and Markdown files to write
+    std::vector<std::string> others;  ///< files of --report, before they are added to reports
     std::vector<std::string> asset_roots;
     bool json = false, all = false;
     int threads = 0;
@@ -28,8 +29,8 @@ struct ComparedFiles {
     Scene a, b;
     report::Comparison comparison;
 };
-/// Throws as reading a file: missing, malformed. Throws usage for a limit with a unit if the first file has
-/// no unit.
+/// Throws the errors of reading a file, and a usage error for a limit with a unit if the first file has no
+/// unit.
 [[nodiscard]] ComparedFiles compared_files(const DiffOptions& options, const std::string& a,
                                            const std::string& b, const CommandLine& line,
                                            const Console& console);

@@ -18,8 +18,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* docs_examples =
-    R"(A guide or a page is printed in Markdown, a command as its --help, a stage as by facetmill stages, the id of
-an error or a warning as by facetmill explain. A word that is no topic gives those that it occurs in.
+    R"(Guides and pages are printed in Markdown. A command is printed like its --help, a stage like facetmill stages, and
+the id of a message like facetmill explain. For any other word, facetmill lists the topics that contain it.
 
 Examples
   facetmill docs
@@ -38,7 +38,8 @@ std::string topic_list() {
                                                                      {Topic::Kind::page, "Pages"},
                                                                      {Topic::Kind::command, "Commands"},
                                                                      {Topic::Kind::stage, "Stages"}};
-    std::string text = "facetmill docs TOPIC prints one of these, or what an id (E-KEY, W-UNITS) means.\n";
+    std::string text =
+        "facetmill docs TOPIC prints one of these topics, or explains an id (E-KEY, W-UNITS).\n";
     const auto all = topics();
     for (const auto& [kind, title] : groups) {
         text += fmt::format("\n{}\n", title);
@@ -81,7 +82,7 @@ int print_docs(const std::string& name, const CommandLine& line, Console& consol
     if (topic == all.end()) {
         const MessageId* message = message_id(docs::id_of(name));
         if (!message)
-            throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no topic '{}'", name),
+            throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("topic '{}' does not exist", name),
                         stage_called(name) || !chain_called(name).empty() ? hint_for_stage(name, {})
                                                                           : names_near(name),
                         line.find(name));
@@ -115,7 +116,8 @@ Command docs_command() {
             {},
             [](Arguments& arguments, Console& console) {
                 auto name = std::make_shared<std::string>();
-                arguments.add("TOPIC", name.get(), "A topic, or the id of a message. Without it: the list.");
+                arguments.add("TOPIC", name.get(),
+                              "A topic, or the id of a message. Default: lists all topics.");
                 return [=, &console](const Invocation& i) { return print_docs(*name, i.line, console); };
             }};
 }

@@ -27,8 +27,9 @@ const MessageId& message_asked_for(const std::string& text, const CommandLine& l
     std::vector<std::string> ids; // only ids with the same letter, if given
     for (const auto& m : message_ids())
         if (!id.starts_with("W-") || m.is_warning()) ids.emplace_back(m.id);
-    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no error or warning '{}'", text),
-                did_you_mean(id, ids, "facetmill explain lists them all"), line.find(text));
+    throw Error(ErrorKind::usage, "E-ARGUMENT",
+                fmt::format("'{}' is not the id of an error or warning", text),
+                did_you_mean(id, ids, "facetmill explain lists all ids"), line.find(text));
 }
 
 int explain(const ExplainOptions& options, const CommandLine& line) {
@@ -54,11 +55,11 @@ Command explain_command() {
             {},
             [](Arguments& arguments, Console&) {
                 auto options = std::make_shared<ExplainOptions>();
-                arguments.add("ID", &options->id, "E-KEY, W-UNITS ... Without it: all of them.");
-                arguments.add("--json", &options->json, "All of them as JSON.");
-                arguments.add("--markdown", &options->markdown, "All of them as a Markdown page.");
+                arguments.add("ID", &options->id, "An id, such as E-KEY or W-UNITS. Default: all ids.");
+                arguments.add("--json", &options->json, "Prints all ids as JSON.");
+                arguments.add("--markdown", &options->markdown, "Prints all ids as a Markdown page.");
                 arguments.add("--man", &options->man,
-                              "All of them as the manual page facetmill-messages(7).");
+                              "Prints all ids as the manual page facetmill-messages(7).");
                 return [=](const Invocation& invocation) { return explain(*options, invocation.line); };
             }};
 }

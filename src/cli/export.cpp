@@ -12,18 +12,19 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* export_examples =
-    R"(One job per asset or shard (several assets), with the inputs and outputs that are known in advance, the number of
-threads and an estimate of the memory. Snakemake schedules by both. Ninja gets pools, so that the jobs that run at
-the same time fit into the cores of this machine and into --memory. Make knows neither: its Makefile names the -j that
-fits. The assets of a shard run one after the other. If one fails,
-the others still run, and the job fails with the exit code of the last asset that failed. Snakemake then removes all
-outputs of the job; Make and Ninja keep them and run the whole shard again. Paths are relative to the working
-directory: run the workflow in it.
-The outputs are those of `facetmill batch` with the same options, byte for byte.
+    R"(Writes one job per asset, or per shard of several assets. Each job lists its known inputs and outputs, the number
+of threads and an estimate of the memory. Snakemake uses threads and memory for scheduling. Ninja gets pools, so
+that parallel jobs fit into the cores of this machine and into --memory. Make supports neither, so the Makefile
+recommends a suitable -j.
 
-A single run that simplifies a mesh larger than memory is divided into jobs with --keep-cells: one makes the cells,
---cell-jobs simplify some of them each, and the last is the run itself. Its outputs are those of `facetmill run` with
-the same --memory, byte for byte. Jobs that were killed go on where they ended.
+The assets of a shard run one after the other. If one fails, the others still run, and the job fails with the exit
+code of the last failure. Snakemake then removes all outputs of the job. Make and Ninja keep them and run the
+whole shard again. Paths are relative to the working directory, so run the workflow there. The outputs are byte
+for byte the same as those of `facetmill batch` with the same options.
+
+--keep-cells divides a single run that simplifies a mesh larger than memory. The first job makes the cells,
+--cell-jobs jobs simplify some cells each, and the last job is the run itself. Its outputs are byte for byte the
+same as those of `facetmill run` with the same --memory. Killed jobs continue where they stopped.
 
 Examples
   facetmill export --to ninja scan-to-web --input 'scans/**/*.ply' -o web > build.ninja && ninja
@@ -140,16 +141,16 @@ void check_cells(const ExportOptions& options, const CommandLine& line, Problems
     if (options.common.kept_cells.empty()) {
         if (options.cell_jobs > 0 || options.common.partition != "auto")
             problems.add(line.find(options.cell_jobs > 0 ? "--cell-jobs" : "--partition"), "E-ARGUMENT",
-                         "--partition and --cell-jobs are for a run in cells", "give --keep-cells DIR");
+                         "--partition and --cell-jobs need a run in cells", "give --keep-cells DIR");
         return check_sources(options, line, problems);
     }
     if (!sources.patterns.empty() || !sources.lists.empty() || !sources.table.empty() || options.shard > 1)
         problems.add(line.find("--keep-cells"), "E-CONFLICT",
-                     "--keep-cells divides one run, and does not go with many assets",
-                     "give the input as the pipeline takes it: -D input=scan.ply");
+                     "--keep-cells divides one run, so it cannot be combined with several assets",
+                     "give the input as a param of the pipeline: -D input=scan.ply");
     if (options.common.memory.empty() || options.common.memory.ends_with('%'))
-        problems.add(line.find("--keep-cells"), "E-ARGUMENT", "jobs in cells need a memory each, in bytes",
-                     "--memory 2G");
+        problems.add(line.find("--keep-cells"), "E-ARGUMENT",
+                     "jobs in cells need a fixed memory size, in bytes", "--memory 2G");
 }
 
 std::string workflow_of(const ExportOptions& options, const std::vector<Job>& jobs, std::uint64_t memory) {
@@ -166,7 +167,7 @@ int export_work(ExportOptions& options, const CommandLine& line, const Console& 
     if (options.pipeline == "-")
         problems.add(line.mark(0), "E-ARGUMENT",
                      "the jobs of a workflow cannot read the pipeline from standard input",
-                     "give it as a file");
+                     "use a file instead");
     const auto of_all = plan_settings(options.common, line, problems);
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings;
@@ -199,25 +200,24 @@ Command export_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<ExportOptions>();
                 options->common.threads = 1;
-                arguments.add("--to", &options->engine, "The engine that the workflow is for.")
+                arguments.add("--to", &options->engine, "The program that runs the workflow.")
                     .one_of({"ninja", "make", "snakemake"})
                     .required();
                 add_asset_options(arguments, *options);
                 arguments
                     .add("--shard", &options->shard,
-                         "Assets per job, which share the overhead of a job. Default: 1.")
+                         "The number of assets per job, which share its overhead. Default: 1.")
                     .between(1, 100000);
                 add_threads_option(arguments, options->common.threads,
                                    "The number of threads of each job. Default: 1.");
                 add_memory_option(arguments, *options, "jobs");
-                arguments.add(
-                    "--keep-cells", &options->common.kept_cells,
-                    "Divides one run in cells, which are kept in the folder DIR, into jobs that\nsimplify "
-                    "some of them each. --memory is then that of each job.");
+                arguments.add("--keep-cells", &options->common.kept_cells,
+                              "Divides one run into jobs that simplify some cells each, and keeps the cells "
+                              "in\nthe folder DIR. --memory then applies to each job.");
                 add_partition_option(arguments, options->common);
                 arguments
                     .add("--cell-jobs", &options->cell_jobs,
-                         "How many jobs simplify cells. Default: one for 2 million faces, 2 to 64.")
+                         "The number of jobs that simplify cells. Default: one for 2 million faces, 2 to 64.")
                     .between(1, 100000);
                 add_sandbox_option(arguments, options->common.sandbox);
                 add_warning_options(arguments, options->common);

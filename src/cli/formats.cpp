@@ -12,8 +12,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* formats_examples =
-    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix; .gz and
-.zst files are decompressed, and text may be UTF-8 or UTF-16.
+    R"(The content of a file determines its format. If the content is not conclusive, the suffix decides. Files that end
+in .gz and .zst are decompressed. Text may be UTF-8 or UTF-16.
 
 Examples
   facetmill formats
@@ -81,12 +81,12 @@ int list_formats(bool json) {
 
 Command formats_command() {
     return {"formats",
-            "Lists the formats that are read and written.",
+            "Lists the formats that facetmill reads and writes.",
             formats_examples,
             {},
             [](Arguments& arguments, Console&) {
                 auto json = std::make_shared<bool>(false);
-                arguments.add("--json", json.get(), "As JSON.");
+                arguments.add("--json", json.get(), "Prints JSON.");
                 return [=](const Invocation&) { return list_formats(*json); };
             }};
 }

@@ -25,9 +25,9 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* info_examples =
-    R"(The names are those of validate, ensure, when and the report. A property that does not apply (the volume of an
-open mesh) is null. With several files --json prints a list. Files that cannot be read are left out of it, and the
-exit code is that of the worst.
+    R"(Property names are the same as in validate, ensure, when and reports. A property that does not apply (the volume
+of an open mesh) is null. With several files, --json prints a list. It leaves out files that cannot be read, and the
+exit code is the most severe one.
 
 Examples
   facetmill info scan.ply
@@ -52,7 +52,7 @@ struct InfoOptions {
 struct FileInfo {
     Scene scene;
     Properties properties;
-    std::vector<report::Component> components; ///< the largest
+    std::vector<report::Component> components; ///< the largest components
     FaceKinds kinds;
 
     std::int64_t omitted() const {
@@ -203,8 +203,7 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
                             "W-FAR",
                             mesh + ": " + crowd_in_words(*crowd),
                             {},
-                            fmt::format("facetmill render {} -o part.png --at {} --zoom {} "
-                                        "shows it",
+                            fmt::format("use facetmill render {} -o part.png --at {} --zoom {} to see it",
                                         mesh, readable(crowd->middle, ","), crowd->zoom)});
     return picture_of(seen, settings);
 }
@@ -230,7 +229,7 @@ FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Cons
 int info(const InfoOptions& options, const Console& console) {
     if (std::count(options.meshes.begin(), options.meshes.end(), "-") > 1)
         throw Error(ErrorKind::usage, "E-DUPLICATE-INPUT", "standard input can be read only once",
-                    "give - once among the files");
+                    "give - only once");
     AllowedFiles allowed;
     for (const auto& mesh : options.meshes) allow_input(allowed, mesh);
     allowed.read.insert(allowed.read.end(), options.asset_roots.begin(), options.asset_roots.end());
@@ -276,7 +275,7 @@ Command info_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<InfoOptions>();
                 arguments.add("MESH", &options->meshes, "Mesh files, or - for standard input.").required();
-                arguments.add("--json", &options->json, "As JSON (facetmill schema info).");
+                arguments.add("--json", &options->json, "Prints JSON (facetmill schema info).");
                 arguments.add("--self-intersections", &options->self_intersections,
                               "Also counts self-intersections, which takes time.");
                 arguments
@@ -284,11 +283,11 @@ Command info_command() {
                          written_file("--picture", ".png", "E-PICTURE",
                                       "facetmill info --picture picture.png part.stl",
                                       [=](const std::string& path) { options->picture = path; }),
-                         "Also writes a PNG image; several files are shown side by side.")
+                         "Also writes a PNG image. Several files are shown next to each other.")
                     .followed_by("FILE.png");
                 arguments
                     .add("--format", &options->format,
-                         "Reads the files as this format, whatever their content.")
+                         "Reads the files in this format, whatever their content.")
                     .one_of(io::names_of_readers());
                 add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");
                 add_asset_root_option(arguments, options->asset_roots);

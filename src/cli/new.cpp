@@ -33,11 +33,13 @@ about: A mesh becomes a checked file for the web.
 
 params:                            # values come from -D keep=10%, or from a file of them: -p phone.yaml
   input: {type: path, help: The mesh to read}
-  unit: {type: choice, default: m, choices: [mm, cm, m], help: The unit of the mesh}
+  unit: {type: choice, default: auto, choices: [auto, mm, cm, m], help: "The unit; auto: as the file states"}
+  up: {type: choice, default: auto, choices: [auto, y, z], help: "The up axis; auto: as the file states"}
   keep: {type: ratio, default: 25%, help: The share of the triangles to keep}
 
 stages:
-  - load: {path: "${input}", unit: "${unit}", up: y}    # relative to this file; paths after -D to the working directory
+  # relative to this file; paths after -D to the working directory
+  - load: {path: "${input}", unit: "${unit}", up: "${up}"}
   - clean                          # merges coinciding vertices, drops degenerate and duplicate faces
   - simplify: "${keep}"
     ensure: {deviation: 2%}        # a contract, checked right after the stage: exit code 1 if it does not hold
@@ -54,7 +56,8 @@ std::string text_of(const NewOptions& options, const CommandLine& line) {
     if (options.from.empty()) return starter;
     if (const auto* ready = docs::ready_pipeline(options.from)) return std::string(ready->text);
     const auto names = docs::ready_names();
-    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no ready pipeline '{}'", options.from),
+    throw Error(ErrorKind::usage, "E-ARGUMENT",
+                fmt::format("ready pipeline '{}' does not exist", options.from),
                 did_you_mean(options.from, names, fmt::format("{}", fmt::join(names, ", "))),
                 line.value(options.from));
 }
@@ -67,8 +70,8 @@ int write_new(const NewOptions& options, const CommandLine& line, const Console&
     }
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::symlink_status(options.file, ignored)))
-        throw Error(ErrorKind::usage, "E-EXISTS", fmt::format("'{}' is there already", options.file),
-                    "name a new file, or - to print", line.value(options.file));
+        throw Error(ErrorKind::usage, "E-EXISTS", fmt::format("'{}' already exists", options.file),
+                    "give another name, or - to print it", line.value(options.file));
     io::write_now(options.file, std::as_bytes(std::span(text)));
     console.say(fmt::format("wrote {0}; next: facetmill plan {0} -D input=FILE", options.file));
     return 0;
@@ -78,13 +81,13 @@ int write_new(const NewOptions& options, const CommandLine& line, const Console&
 
 Command new_command() {
     return {"new",
-            "Writes a commented pipeline to begin with.",
+            "Writes a commented pipeline as a starting point.",
             new_examples,
             {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<NewOptions>();
-                arguments.add("FILE", &options->file, "The file to write; -: print it.").required();
-                arguments.add("--from", &options->from, "A ready pipeline to begin with.")
+                arguments.add("FILE", &options->file, "The file to write. - prints it.").required();
+                arguments.add("--from", &options->from, "The ready pipeline to start from.")
                     .suggests(docs::ready_names);
                 return [=, &console](const Invocation& invocation) {
                     return write_new(*options, invocation.line, console);

@@ -17,12 +17,14 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* pipe_examples =
-    R"(The same language as a pipeline file. Options of facetmill pipe itself come first, then the stages, separated by
-! or +. A stage is its name, a bare value for its primary option, and --key value, --key=value or --flag for the
-others. Nested keys are dotted (--plane.normal=0,0,1), and so are --ensure.closed and --when.closed; --name and
---only are as in a file. Lists are written with commas or by repeating the option; lists of paths, which may contain
-commas, by repeating it. An option with a plural form may also be repeated (--plane z=0 --plane x=0 for --planes).
-@{x} stands for ${x}, and 50pct for 50%.
+    R"(Stages and options are the same as in a pipeline file. Give options of facetmill pipe first, then stages separated
+by ! or +. A stage has its name, a bare value for its primary option, and --key value, --key=value or --flag for
+other options.
+
+Join nested keys with dots (--plane.normal=0,0,1, --ensure.closed, --when.closed). Use --name and --only as in a
+file. Write lists with commas, or repeat the option. Paths may contain commas, so always repeat the option for
+lists of paths. If an option has a plural form, you can repeat the singular (--plane z=0 --plane x=0 for
+--planes). @{x} means ${x}, and 50pct means 50%.
 
   foreach VARIABLE=VALUE,VALUE... [ STAGE ! STAGE ]
   branch NAME [ STAGE ! STAGE ] NAME [ STAGE ]
@@ -104,10 +106,12 @@ Command pipe_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto save_to = std::make_shared<std::string>();
-                arguments.add("--save", save_to.get(), "Also writes the pipeline as a file for run.");
+                arguments.add("--save", save_to.get(), "Also saves the pipeline as a file for run.");
+                add_asset_root_option(arguments, options->asset_roots);
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
                 return [=, &arguments, &console](const Invocation& invocation) {
+                    console.pipe = true;
                     options->cells = cell_settings(*options, invocation.line);
                     return pipe(*options, *save_to, arguments, invocation, console);
                 };

@@ -33,6 +33,16 @@ bool is_option_with(const std::string& name, const std::string& word) {
     });
 }
 
+bool is_stage_option(const std::string& name) {
+    return std::any_of(stages().begin(), stages().end(),
+                       [&](const StageInfo& stage) { return stage.options->find(name) != nullptr; });
+}
+
+/// Whether a stage has an option of that name, and the text is a number or a percentage.
+bool is_option_with_number(const std::string& name, std::string_view text) {
+    return !text.empty() && (text[0] == '-' || (text[0] >= '0' && text[0] <= '9')) && is_stage_option(name);
+}
+
 /// Rewrites a hint from left to right.
 class Rewriter {
   public:
@@ -82,11 +92,19 @@ class Rewriter {
             if (!stage && out_.ends_with(' ')) out_.pop_back();
             return true;
         }
+        if (value < hint_.size() && hint_[value] == '[' && !stage && is_stage_option(word)) {
+            const std::size_t end_of_list = value_end(value);
+            if (end_of_list == std::string_view::npos) return false;
+            write({word, std::string(hint_.substr(value, end_of_list - value))}, nullptr);
+            at_ = end_of_list;
+            return true;
+        }
         const bool in_parentheses = at_ > 0 && hint_[at_ - 1] == '(';
         const std::size_t stop = std::min(hint_.size(), hint_.find_first_of(" ,;)", value));
         if (stop == value || hint_[stop - 1] == ':') return false;
         const std::string text(hint_.substr(value, stop - value));
-        if (!stage && !in_parentheses && !is_option_with(word, text)) return false;
+        if (!stage && !in_parentheses && !is_option_with(word, text) && !is_option_with_number(word, text))
+            return false;
         out_ += stage ? word : "--" + word;
         if (stage || text != "true") out_ += " " + text;
         at_ = stop;

@@ -62,10 +62,9 @@ class Parser {
         const std::string& option = all_[at_ - 2];
         if (!is_option(option) || option.find('=') != std::string::npos || !own_->find(option)) return;
         const std::string stage = all_[at_ - 1];
-        problems_.add(
-            line_.mark(at_ - 1), "E-PIPE",
-            fmt::format("'{}' takes a value, and took the name of the stage '{}' for it", option, stage),
-            fmt::format("{} VALUE {} {}", option, stage, all_[at_]));
+        problems_.add(line_.mark(at_ - 1), "E-PIPE",
+                      fmt::format("'{}' needs a value, but found the stage name '{}'", option, stage),
+                      fmt::format("{} VALUE {} {}", option, stage, all_[at_]));
     }
 
     /// Reads stages up to the end or a closing bracket.
@@ -113,7 +112,7 @@ class Parser {
             if (skip_own_option(stage) || (stage && skip_misspelt_option(*stage))) continue;
             if (is_forgotten_separator(primary, bare.empty())) {
                 wrong(fmt::format("'{}' is a stage, found among the values of '{}'", all_[at_], name),
-                      fmt::format("did you forget ! before {}?", all_[at_]));
+                      fmt::format("add ! before {} if it is a stage", all_[at_]));
                 break;
             }
             if (all_[at_] == "--")
@@ -121,7 +120,7 @@ class Parser {
             else if (is_option(all_[at_]))
                 option(item, stage);
             else if (all_[at_] == "[") {
-                wrong(fmt::format("'{}' takes no '['", name));
+                wrong(fmt::format("'{}' does not accept '['", name));
                 ++at_;
             } else {
                 bare.push_back(pipe_value(all_[at_], primary, mark(), problems_));
@@ -135,7 +134,7 @@ class Parser {
     /// "-- -2mm" as in a shell: the word after two dashes is a value, whatever it begins with.
     void bare_behind_dashes(std::vector<Value>& bare, const Option* primary) {
         ++at_;
-        if (at_end_of_step()) return wrong("a value is missing behind '--'");
+        if (at_end_of_step()) return wrong("a value is missing after '--'");
         bare.push_back(pipe_value(all_[at_], primary, mark(), problems_));
         ++at_;
     }
@@ -165,8 +164,8 @@ class Parser {
         const Argument* argument = own_->find(name);
         if (!argument && !is_long) return skip_short_option(*stage);
         if (!argument || (is_long && takes(*stage, name.substr(2)))) return false;
-        wrong(fmt::format("'{}' is an option of pipe itself, found behind the stage '{}'", name, stage->name),
-              fmt::format("it comes before the first stage: facetmill pipe {} ... load ...", name));
+        wrong(fmt::format("'{}' is an option of pipe, found after the stage '{}'", name, stage->name),
+              fmt::format("put it before the first stage: facetmill pipe {} ... load ...", name));
         const bool attached = is_long ? word.find('=') != word.npos : word.size() > 2;
         ++at_;
         if (!argument->is_flag() && !attached && !at_end_of_step()) ++at_;
@@ -208,7 +207,7 @@ class Parser {
         if (dash && end == word.npos && wants_value(name, find_dotted(*stage.options, name)))
             value = all_[at_++];
         problems_.add(where, "E-PIPE",
-                      fmt::format("an option of a stage begins with two dashes, found '{}'", word),
+                      fmt::format("an option of a stage starts with two dashes, found '{}'", word),
                       fmt::format("write --{}{}{}", name, value.empty() ? "" : " ", value));
         return true;
     }
@@ -231,11 +230,10 @@ class Parser {
 
     /// The hint for a second bare value if only a single value is allowed.
     static std::string hint_of_second(const StageInfo& stage, const std::string& word) {
-        if (is_foreign_truth(word)) return "an option is switched by true and false: --draco, --draco=false";
+        if (is_foreign_truth(word)) return "switch options with true and false: --draco, --draco=false";
         if (takes(stage, word)) return fmt::format("did you mean '--{}'?", word);
-        if (names_result(stage, word))
-            return fmt::format("a file that it writes is given by --path {}", word);
-        return "stages are separated by ! or +";
+        if (names_result(stage, word)) return fmt::format("give its output file with --path {}", word);
+        return "separate stages with ! or +";
     }
 
     /// Sets the bare values of a stage: alone, or as the primary option with the other options.
@@ -245,7 +243,7 @@ class Parser {
         if (bare.size() > 1) {
             if (primary && !primary->repeatable && primary->kind != OptionKind::vector)
                 problems_.add(bare[1].mark, "E-PIPE",
-                              fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
+                              fmt::format("'{}' accepts one value, found {}", stage->name, bare.size()),
                               hint_of_second(*stage, bare[1].text));
             Value list = Value::list({}, bare[0].mark);
             for (auto& b : bare)
@@ -261,8 +259,8 @@ class Parser {
         else if (primary)
             add(value, primary->name, std::move(one), at, primary);
         else if (stage) // an unknown stage has its own error
-            problems_.add(at, "E-PIPE", "a bare value does not go with options here",
-                          "give it by its option's name");
+            problems_.add(at, "E-PIPE", "a bare value cannot be combined with options here",
+                          "give it with the name of its option");
         if (!value.mark.known()) value.mark = where;
     }
 
@@ -271,7 +269,7 @@ class Parser {
         return key;
     }
 
-    /// --key value, --key=value, --key, --no-key; dotted keys nest.
+    /// Parses --key value, --key=value, --key and --no-key. Dotted keys nest.
     void option(Value& item, const StageInfo* stage) {
         const std::string argument = all_[at_].substr(2);
         const auto equals = argument.find('=');
@@ -279,7 +277,7 @@ class Parser {
         Mark key_mark = mark();
         if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
         if (std::count(key.begin(), key.end(), '.') > deepest) {
-            wrong(fmt::format("a key of more than {} parts", deepest + 1));
+            wrong(fmt::format("a key has more than {} parts", deepest + 1));
             ++at_;
             return;
         }
@@ -303,7 +301,7 @@ class Parser {
             value = Value::scalar("false", key_mark);
         else if (equals == argument.npos && wants_value(key, known)) {
             if (all_[at_] == "--") ++at_; // as before a bare value
-            if (at_end_of_step()) return wrong("a value is missing behind '--'");
+            if (at_end_of_step()) return wrong("a value is missing after '--'");
             value = given(all_[at_], key, known, mark());
             ++at_;
         } else if (equals == argument.npos)
@@ -423,7 +421,7 @@ class Parser {
                       fmt::format("it was '{}' before", slot->is_scalar() ? slot->text : slot->described()));
     }
 
-    /// foreach lod=50%,10% name=a,b [ ... ]
+    /// Parses: foreach lod=50%,10% name=a,b [ ... ]
     Value foreach_step(const Mark& where) {
         Value item = Value::map({{"foreach", where, Value::map({}, where)}}, where);
         for (++at_; !at_end_of_step() && all_[at_] != "["; ++at_) {
@@ -433,7 +431,7 @@ class Parser {
             }
             const auto equals = all_[at_].find('=');
             if (equals == std::string::npos || equals == 0) {
-                wrong(fmt::format("foreach takes variable=value,value, found '{}'", all_[at_]));
+                wrong(fmt::format("foreach needs variable=value,value, found '{}'", all_[at_]));
                 continue;
             }
             const std::string variable = all_[at_].substr(0, equals);
@@ -459,7 +457,7 @@ class Parser {
             variables.set(variable, std::move(values), mark());
     }
 
-    /// branch near [ ... ] far [ ... ]
+    /// Parses: branch near [ ... ] far [ ... ]
     Value branch_step(const Mark& where) {
         Value item = Value::map({{"branch", where, Value::map({}, where)}}, where);
         ++at_;
@@ -477,14 +475,14 @@ class Parser {
             Value body = block("branch near [ ... ] far [ ... ]");
             Value& arms = item.entries[0].value;
             if (arms.find(arm))
-                problems_.add(arm_mark, "E-PIPE", fmt::format("there are two branches '{}'", arm));
+                problems_.add(arm_mark, "E-PIPE", fmt::format("two branches are named '{}'", arm));
             else
                 arms.set(arm, std::move(body), arm_mark);
         }
         return item;
     }
 
-    /// include finish.yaml --with.ratio=10%
+    /// Parses: include finish.yaml --with.ratio=10%
     Value include_step(const Mark& where) {
         Value item = Value::map({{"include", where, Value{}}}, where);
         Value options = Value::map({{"include", where, Value{}}}, where); // in the form of a stage
@@ -497,8 +495,7 @@ class Parser {
             if (is_option(word))
                 wrong(fmt::format("include has no option '{}'", word), "include FILE --with.NAME=VALUE");
             else if (!item.entries[0].value.is_null())
-                wrong(fmt::format("include takes one file, found '{}'", word),
-                      "stages are separated by ! or +");
+                wrong(fmt::format("include needs one file, found '{}'", word), "separate stages with ! or +");
             else
                 item.entries[0].value = Value::scalar(expressions(word), mark());
             ++at_;
@@ -508,7 +505,7 @@ class Parser {
         return item;
     }
 
-    /// [ stages ]
+    /// Parses: [ stages ]
     Value block(const char* example) {
         if (done() || all_[at_] != "[") {
             wrong("'[' is missing here", example);
@@ -517,7 +514,7 @@ class Parser {
         }
         if (depth_ == deepest) {
             wrong(fmt::format("brackets are nested more than {} levels deep", deepest),
-                  "put the inner stages into a file, and include it");
+                  "put the inner stages into a file and include it");
             too_deep_ = true;
             at_ = all_.size(); // skip the rest
             return Value::list({}, mark());
@@ -560,7 +557,7 @@ class Parser {
     bool done() const { return at_ >= all_.size(); }
     bool at_end_of_step() const { return done() || is_separator(all_[at_]) || all_[at_] == "]"; }
     Mark mark() const { return line_.mark(std::min(at_, all_.size() - 1)); }
-    /// The part of the current argument from that byte on.
+    /// The mark of the current argument from this byte on.
     Mark inside(std::size_t offset) const {
         Mark m = mark();
         if (m.length != static_cast<int>(all_[at_].size()) || m.length <= static_cast<int>(offset)) return m;

@@ -31,12 +31,12 @@ void add_message_options(Arguments& arguments, Console& console) {
     arguments.add("-q,--quiet", &console.quiet, "Prints only warnings and errors.").under("Messages");
     arguments
         .add("-v,--verbose", &console.verbose,
-             "Also prints every stage as it starts, and the resolved values.")
+             "Also prints each stage when it starts, and the resolved values.")
         .under("Messages");
     arguments
         .add(
             "--log", [&console](const std::string& form) { console.json = form == "json"; },
-            "How messages are written: text, or json (one object per line).")
+            "The format of messages: text, or json (one object per line).")
         .one_of({"text", "json"})
         .under("Messages");
 }
@@ -44,7 +44,7 @@ void add_message_options(Arguments& arguments, Console& console) {
 void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
     arguments.add("-p,--preset", &options.presets,
-                  "A YAML file of params (keep: 10%), with paths relative to it. -D overrides it.");
+                  "A YAML file of params (keep: 10%). Its paths are relative to it. -D overrides it.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
     add_asset_root_option(arguments, options.asset_roots);
 }
@@ -52,22 +52,23 @@ void add_param_options(Arguments& arguments, PipelineOptions& options) {
 void add_value_options(Arguments& arguments, PipelineOptions& options) {
     add_param_options(arguments, options);
     arguments.add("--update-baseline", &options.update_baseline,
-                  "Stages with a baseline write the current failures to it, and pass.");
+                  "Writes the current failures to the baselines of stages, so that they pass.");
 }
 
 void add_warning_options(Arguments& arguments, PipelineOptions& options) {
-    arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
+    arguments.add("--strict", &options.strict,
+                  "Turns warnings into errors: --strict for all, --strict=ID for one.");
     arguments
         .add("--allow", &options.allowed,
-             "The id of a warning that is not printed and does not fail under --strict; also --quiet=ID.")
+             "The id of a warning to hide. It does not fail under --strict. Also: --quiet=ID.")
         .suggests(warning_ids);
-    arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
+    arguments.add("--check-invariants", &options.check_invariants, "Checks every mesh after every stage.")
         .hidden();
 }
 
 void add_sync_option(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--no-sync", &options.no_sync,
-                  "Does not wait until outputs are on the disk; a loss of power may leave them empty.");
+                  "Does not wait until outputs are on the disk. After a power failure they may be empty.");
 }
 
 std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
@@ -81,36 +82,36 @@ std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
         bytes = static_cast<double>(memory_there()) * std::min(*share, 100.0) / 100;
     if (bytes && *bytes > 0) return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(*bytes));
     const std::string hint = problems.all().empty() ? "" : problems.all().front().hint;
-    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
-                hint.empty() ? "8GB (1000000000 bytes each), 8GiB or 8G (1073741824), or 50%" : hint,
+    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory needs a size, found '{}'", text),
+                hint.empty() ? "for example 8GB (1000000000 bytes each), 8GiB or 8G (1073741824), or 50%"
+                             : hint,
                 value.mark);
 }
 
 void add_partition_option(Arguments& arguments, PipelineOptions& options) {
     arguments
-        .add("--partition", &options.partition,
-             "Whether the first stages work on cells on disk: auto (where --memory is too\nlittle), always "
-             "or never.")
+        .add(
+            "--partition", &options.partition,
+            "When the first stages work on cells on disk: auto (if --memory is too small),\nalways or never.")
         .one_of({"auto", "always", "never"});
 }
 
 void add_cell_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--memory", &options.memory,
-                  "The memory for the run: 2G, 500MB, 50% of what is available. A mesh that needs\nmore is "
-                  "processed in cells on disk, see --partition. Default: no limit.");
+                  "The memory for the run: 2G, 500MB, or 50% of the available memory. Larger meshes\nare "
+                  "processed in cells on disk (see --partition). Default: no limit.");
     add_partition_option(arguments, options);
-    arguments.add(
-        "--scratch", &options.scratch,
-        "The folder for the temporary data of cells. Default: that of --keep-cells, else the\noutput "
-        "folder.");
+    arguments.add("--scratch", &options.scratch,
+                  "The folder for temporary data of cells. Default: the folder of --keep-cells, or "
+                  "the\noutput folder.");
     arguments.add("--keep-cells", &options.kept_cells,
-                  "Keeps cells in the folder DIR: a run that was ended early, or comes again with\nthe same "
-                  "inputs, takes up what is there.");
+                  "Keeps cells in the folder DIR. An interrupted run, or another run with the same\ninputs, "
+                  "continues with these cells.");
 }
 
 namespace {
 
-/// "cells", or "3/16": the third of 16 jobs. Throws usage (E-ARGUMENT).
+/// "cells", or "3/16": the third of 16 jobs. Throws a usage error (E-ARGUMENT).
 cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
     cells::CellJob job;
     if (text == "cells") return job;
@@ -120,8 +121,8 @@ cells::CellJob cell_job(const std::string& text, const CommandLine& line) {
         slash == text.npos ? std::nullopt : parse_integer(std::string_view(text).substr(slash + 1));
     constexpr std::int64_t most = 100000;
     if (!number || !of || *number < 1 || *of < *number || *of > most)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--cells-job takes a job, found '{}'", text),
-                    "cells, or 3/16 for the third of 16", line.value(text));
+        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--cells-job needs a job, found '{}'", text),
+                    "give cells, or for example 3/16 for the third job of 16", line.value(text));
     return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
 }
 
@@ -137,21 +138,21 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
     set_memory_limit(settings.memory);
     settings.kept = options.kept_cells;
     if (!settings.kept.empty() && settings.memory == 0 && settings.when == When::automatic)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "--keep-cells is for runs in cells",
-                    "give the memory for the run, as --memory 2G, or --partition always",
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--keep-cells needs a run in cells",
+                    "set the memory with --memory 2G, or use --partition always",
                     line.value(options.kept_cells));
     if (!options.cells_job.empty()) settings.job = cell_job(options.cells_job, line);
     if (settings.job && (settings.kept.empty() || settings.when == When::never))
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cells-job is for runs that keep their cells",
-                    "give their folder: --keep-cells DIR", line.value(options.cells_job));
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cells-job needs a run that keeps its cells",
+                    "give the folder: --keep-cells DIR", line.value(options.cells_job));
     if (settings.job)
         for (const auto& [option, is_given] : {std::pair{"--report", !options.reports.empty()},
                                                {"--timings", !options.timings.empty()},
                                                {"--depfile", !options.depfile.empty()}})
             if (is_given)
                 throw Error(ErrorKind::usage, "E-CONFLICT",
-                            fmt::format("--cells-job writes cells alone, and {} is of a whole run", option),
-                            "give it to the last run, which takes up the cells", line.find(option));
+                            fmt::format("--cells-job only writes cells, so {} cannot be used", option),
+                            "use it in the last run, which continues with the cells", line.find(option));
     settings.scratch = !options.scratch.empty() ? options.scratch : options.kept_cells;
     if (settings.scratch.empty()) settings.scratch = options.output_dir;
     if (settings.scratch.empty()) settings.scratch = ".";
@@ -160,29 +161,28 @@ pipeline::CellSettings cell_settings(const PipelineOptions& options, const Comma
 
 void add_run_options(Arguments& arguments, PipelineOptions& options) {
     add_threads_option(arguments, options.threads,
-                       "The number of threads, which does not change the result. Default: all cores.");
+                       "The number of threads. It does not change the result. Default: all cores.");
     arguments.add("-o,--output-dir", &options.output_dir,
-                  "The folder that the paths of outputs are relative to. Default: the working directory.");
+                  "The folder for relative paths of outputs. Default: the working directory.");
     arguments.add(
         "--report", &options.reports,
-        "Also write a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
+        "Also writes a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
     arguments.add("--timings", &options.timings,
-                  "Write times, memory and threads to F.json, or the report's page with them to F.html.\n"
-                  "Reports leave them out, to be reproducible.");
-    arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
+                  "Writes times, memory and threads to F.json, or a report page with them to F.html.\nOther "
+                  "reports omit them so that they are reproducible.");
+    arguments.add("--depfile", &options.depfile, "Writes the input and output files as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
-                  "The target of that rule. Default: the first file that is written.");
+                  "The target of that rule. Default: the first output file.");
     arguments.add("--restat", &options.restat,
-                  "Outputs and reports that stay the same keep their times, for Ninja's restat.");
+                  "Keeps the times of unchanged outputs and reports, for Ninja's restat.");
     add_sync_option(arguments, options);
     add_cell_options(arguments, options);
-    arguments.add(
-        "--cells-job", &options.cells_job,
-        "Does one job of several that --keep-cells holds together: cells, or 3/16 for the third of\n16 "
-        "that simplify. It has no outputs. facetmill export writes them.");
+    arguments.add("--cells-job", &options.cells_job,
+                  "Runs one of several jobs that share --keep-cells: cells, or 3/16 for the third of\n16 "
+                  "that simplify. It has no outputs. facetmill export writes such jobs.");
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
-                  "Says for each stage why it ran again, or that its result is from the cache.");
+                  "Prints for each stage why it ran again, or that its result is from the cache.");
     add_sandbox_option(arguments, options.sandbox);
     add_warning_options(arguments, options);
 }
@@ -201,7 +201,7 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
             continue;
         }
         problems.add(line.find(text), "E-ARGUMENT",
-                     fmt::format("{} takes name=value, found '{}'", option, text));
+                     fmt::format("{} needs name=value, found '{}'", option, text));
     }
     return pairs;
 }
@@ -224,7 +224,8 @@ void check_ids(const std::vector<std::string>& given, const std::string& option,
     const auto ids = warning_ids();
     for (const auto& id : given)
         if (std::find(ids.begin(), ids.end(), id) == ids.end())
-            problems.add(line.value(id), "E-STRICT", fmt::format("{}: there is no warning '{}'", option, id),
+            problems.add(line.value(id), "E-STRICT",
+                         fmt::format("{}: warning '{}' does not exist", option, id),
                          did_you_mean(id, ids, "facetmill explain lists the warnings"));
 }
 
@@ -265,9 +266,9 @@ namespace {
 [[noreturn]] void refuse_unknown(const std::string& pipeline) {
     const auto names = docs::ready_names();
     const std::string near = nearest(pipeline, names);
-    throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no pipeline '{}'", pipeline),
+    throw Error(ErrorKind::missing, "E-FILE", fmt::format("pipeline '{}' does not exist", pipeline),
                 near.empty()
-                    ? fmt::format("name a YAML file, or a ready pipeline: {}", fmt::join(names, ", "))
+                    ? fmt::format("give a YAML file, or a ready pipeline: {}", fmt::join(names, ", "))
                     : fmt::format("did you mean the ready pipeline '{}'?", near));
 }
 
@@ -404,7 +405,7 @@ void tell_recalled(const pipeline::Trace& trace, const Console& console) {
         return step.way == pipeline::TracedStep::Way::recalled;
     });
     if (recalled > 0 && !console.json)
-        console.say(fmt::format("{} of {} from the cache (--explain says which, --no-cache runs all)",
+        console.say(fmt::format("{} of {} from the cache (--explain lists them, --no-cache runs all)",
                                 recalled, counted(trace.size(), "stage")));
 }
 
@@ -447,12 +448,11 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
     settings.commit = {.keep_unchanged = options.restat, .sync = !options.no_sync};
-    Json view; // of the page with times
+    Json view; // view of the page with times
     if (options.timings.ends_with(".html")) settings.on_view = [&](const Json& shown) { view = shown; };
     if (options.explain && !store)
-        console.say(
-            "--explain has nothing to compare with: no cache is used (--no-cache, FACETMILL_CACHE=off, "
-            "CI=true without --cache, or no HOME)");
+        console.say("--explain has nothing to compare with because no cache is used (--no-cache, "
+                    "FACETMILL_CACHE=off, CI=true without --cache, or no HOME)");
     pipeline::Trace trace;
     if (store)
         settings.on_trace = [&](const pipeline::Trace& all) {
@@ -470,7 +470,8 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     few.finish();
     summarise(record, console);
     if (!options.explain) tell_recalled(trace, console);
-    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else already said
+    const bool writable =
+        record.exit_code != static_cast<int>(ErrorKind::output); // output errors are already reported
     if (!options.timings.empty() && writable) {
         const std::string text = options.timings.ends_with(".html")
                                      ? report::to_html_with_times(record, view)
@@ -480,7 +481,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
                       options.restat ? std::optional(started) : std::nullopt);
-    for (auto& stage : record.stages) destroy(stage.result); // it is large for scenes of many parts
+    for (auto& stage : record.stages) destroy(stage.result); // large for scenes of many parts
     return record.exit_code;
 }
 

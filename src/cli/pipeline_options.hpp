@@ -25,23 +25,24 @@ struct PipelineOptions {
     SandboxOptions sandbox;
 };
 
-/// -D, --preset, --set and --asset-root.
+/// Adds -D, --preset, --set and --asset-root.
 void add_param_options(Arguments& arguments, PipelineOptions& options);
-/// The same and --update-baseline.
+/// Adds these options and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
-/// --partition.
+/// Adds --partition.
 void add_partition_option(Arguments& arguments, PipelineOptions& options);
-/// --partition with --memory, --scratch and --keep-cells: meshes larger than memory.
+/// Adds --partition with --memory, --scratch and --keep-cells: meshes larger than memory.
 void add_cell_options(Arguments& arguments, PipelineOptions& options);
-/// The settings by these options. Throws usage (E-ARGUMENT).
+/// The settings that these options define. Throws a usage error (E-ARGUMENT).
 [[nodiscard]] pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);
-/// Bytes: "8GB", "8G", "50%" of the available memory; 0 for an empty text. Throws usage (E-ARGUMENT).
+/// Bytes: "8GB", "8G", "50%" of the available memory; 0 for an empty text. Throws a usage error
+/// (E-ARGUMENT).
 [[nodiscard]] std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
-/// --no-sync.
+/// Adds --no-sync.
 void add_sync_option(Arguments& arguments, PipelineOptions& options);
-/// --strict, --allow, --check-invariants.
+/// Adds --strict, --allow and --check-invariants.
 void add_warning_options(Arguments& arguments, PipelineOptions& options);
-/// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow, --cache, --no-cache,
+/// Adds -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow, --cache, --no-cache,
 /// --explain, --restat, --no-sync.
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
@@ -58,12 +59,12 @@ void take_input(std::vector<std::string>& pipelines, PipelineOptions& options, c
 /// ready pipeline.
 bool is_pipeline_file(const std::string& pipeline);
 
-/// The text and name of a file, of standard input ("-"), or of a ready pipeline. Throws missing if it does
-/// not exist.
+/// The text and name of a file, of standard input ("-"), or of a ready pipeline. Throws a missing-file error
+/// if it does not exist.
 [[nodiscard]] std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);
 
-/// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Adds problems; throws
-/// missing for a file that cannot be read.
+/// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Adds problems; throws a
+/// missing-file error for a file that cannot be read.
 [[nodiscard]] pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings,
                                      Problems& problems);
 
@@ -71,7 +72,7 @@ bool is_pipeline_file(const std::string& pipeline);
 /// far as known; the exit code is usage.
 bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
 
-/// Prints an event for each finished stage with --log json. asset: in a batch, else empty.
+/// Prints an event for each finished stage with --log json. asset: the asset in a batch, otherwise empty.
 void tell_stage(const report::StageRecord& stage, const std::string& asset, const Console& console);
 
 /// Prints the resolved lengths of a stage.
@@ -94,7 +95,7 @@ void plan_each(const std::vector<std::string>& pipelines, const PipelineOptions&
                const CommandLine& line, const Console& console,
                const std::function<void(const std::string& pipeline, const pipeline::Plan&)>& look);
 
-/// Prints warnings; throws usage if there are errors.
+/// Prints warnings; throws a usage error if there are errors.
 void settle(const Problems& problems, const Console& console);
 
 /// Throws all of these errors as a single error with the kind of the first; does nothing if empty.

@@ -62,20 +62,24 @@ int plan(PlanOptions& options, const CommandLine& line, const Console& console) 
 
 Command plan_command() {
     return {"plan",
-            "Shows what a pipeline would do, with everything resolved, without running it.",
+            "Shows the resolved steps of a pipeline without running it.",
             plan_examples,
             {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PlanOptions>();
-                arguments.add("PIPELINE", &options->pipelines, "A YAML file or ready pipeline; a mesh.")
+                arguments
+                    .add("PIPELINE", &options->pipelines,
+                         "A YAML file, - or a ready pipeline, and possibly a mesh.")
                     .required();
-                arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
-                arguments.add("--outputs", &options->outputs,
-                              "Only the files it writes, one per line; with --inputs, after an empty line.");
-                arguments.add("--json", &options->json, "As JSON.");
+                arguments.add("--inputs", &options->inputs,
+                              "Prints only the files that the pipeline reads, one per line.");
                 arguments.add(
-                    "-o,--output-dir", &options->common.output_dir,
-                    "The folder that the paths of outputs are relative to. Default: the working directory.");
+                    "--outputs", &options->outputs,
+                    "Prints only the files that the pipeline writes, one per line. With --inputs, they "
+                    "follow an empty line.");
+                arguments.add("--json", &options->json, "Prints JSON.");
+                arguments.add("-o,--output-dir", &options->common.output_dir,
+                              "The folder for relative paths of outputs. Default: the working directory.");
                 add_value_options(arguments, options->common);
                 add_cell_options(arguments, options->common);
                 add_sandbox_option(arguments, options->common.sandbox);

@@ -52,7 +52,7 @@ Commands
 )";
 
 constexpr const char* help_end = R"(
-  --help, --version, --version --json, and help TOPIC: what facetmill docs TOPIC prints
+  --help, --version, --version --json, and help TOPIC, which is short for facetmill docs TOPIC
 
 Examples
   facetmill pipe load scan.ply ! simplify 25% ! write web.glb
@@ -65,10 +65,9 @@ Examples
 See also facetmill COMMAND --help, facetmill docs, and the manual pages facetmill(1), facetmill-pipeline(5),
 facetmill-stages(7) and facetmill-messages(7).
 
-Exit codes: 0 done, 1 a check did not hold, 2 the command line or the pipeline is wrong, 3 an input is
-missing, 4 an output cannot be written, 5 a stage cannot process its input, 6 an input is malformed, 7 a
-limit or lack of memory, 70 a bug in facetmill, 128+n ended by signal n.
-)";
+Exit codes: 0 success, 1 a check failed, 2 error in the command line or pipeline, 3 an input is missing, 4 an
+output cannot be written, 5 a stage cannot process its input, 6 an input is malformed, 7 a limit was exceeded or
+memory ran out, 70 a bug in facetmill, 128+n ended by signal n.)";
 
 std::string help_text() {
     std::string text = help_begin;
@@ -81,10 +80,10 @@ std::string help_text() {
 std::string hint_for(const std::vector<std::string>& words, const std::vector<std::string>& names) {
     const std::string& name = words[0];
     if (name == "convert" || name.find_first_of("./\\") != name.npos)
-        return "a mesh file is converted by facetmill pipe load IN ! write OUT, and looked at by facetmill "
-               "info IN";
+        return "use facetmill pipe load IN ! write OUT to convert a mesh file, or facetmill info IN to see "
+               "its properties";
     if (docs::ready_pipeline(name))
-        return fmt::format("a pipeline runs by facetmill run {} -D input=FILE", name);
+        return fmt::format("use facetmill run {} -D input=FILE to run a pipeline", name);
     if (const std::string_view chain = chain_called(name); !chain.empty()) return std::string(chain);
     if (const StageInfo* stage = stage_called(name)) return as_pipe(stage->name, words);
     return suggestion(name, names);
@@ -119,7 +118,7 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
     if (name.starts_with("-"))
         throw Error(ErrorKind::usage, "E-OPTION", fmt::format("facetmill itself has no option '{}'", name),
                     option_first(line.arguments(), names), line.mark(0));
-    throw Error(ErrorKind::usage, "E-COMMAND", fmt::format("there is no command '{}'", name),
+    throw Error(ErrorKind::usage, "E-COMMAND", fmt::format("command '{}' does not exist", name),
                 hint_for(line.arguments(), names), line.mark(0));
 }
 
@@ -137,20 +136,18 @@ std::string hint_for(const Command& command, const Arguments& arguments, const s
                      const CommandLine& line) {
     const auto& words = line.arguments();
     if (std::find(words.begin(), words.end(), "!") != words.end())
-        return fmt::format(
-            "{} takes a pipeline file, which facetmill new FILE.yaml begins; stages separated by ! are "
-            "for facetmill pipe, which runs them for one input",
-            command.name);
+        return fmt::format("{} needs a pipeline file, and facetmill new FILE.yaml creates one; to run stages "
+                           "separated by ! on one input, use facetmill pipe",
+                           command.name);
     if (std::find(words.begin(), words.end(), "--input") != words.end())
-        return "quote a pattern, so that the shell leaves it alone (--input '*.obj'), or repeat --input";
+        return "quote a pattern so that the shell does not expand it (--input '*.obj'), or repeat --input";
     if (arguments.find("--input"))
-        return fmt::format("meshes come behind --input: facetmill {} PIPELINE --input {} ...", command.name,
+        return fmt::format("give meshes after --input: facetmill {} PIPELINE --input {} ...", command.name,
                            extra);
     if (arguments.find("-D"))
-        return fmt::format(
-            "meshes are params of the pipeline: facetmill {} PIPELINE -D input={}; facetmill batch "
-            "runs it for many",
-            command.name, extra);
+        return fmt::format("meshes are params of the pipeline: facetmill {} PIPELINE -D input={}; for many "
+                           "meshes use facetmill batch",
+                           command.name, extra);
     return fmt::format("see facetmill {} --help", command.name);
 }
 
@@ -168,7 +165,7 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
             continue;
         }
         problems.add(line.find(extra), "E-ARGUMENT",
-                     fmt::format("'{}' does not take '{}'", command.name, extra),
+                     fmt::format("'{}' does not accept '{}'", command.name, extra),
                      hint_for(command, arguments, extra, line));
         break; // the remaining words are of the same kind
     }
@@ -181,9 +178,10 @@ std::vector<std::string> expanded(std::vector<std::string> words, bool takes_the
                                   const CommandLine& line) {
     const auto refuse_separate_id = [&](std::size_t i) {
         if (i + 1 >= words.size() || !words[i + 1].starts_with("W-")) return;
-        throw Error(ErrorKind::usage, "E-ARGUMENT",
-                    fmt::format("{0} and a warning's id are one argument: {0}={1}", words[i], words[i + 1]),
-                    fmt::format("{} alone is about all warnings", words[i]), line.mark(i + 2));
+        throw Error(
+            ErrorKind::usage, "E-ARGUMENT",
+            fmt::format("write {0} and the id of a warning as one argument: {0}={1}", words[i], words[i + 1]),
+            fmt::format("{} alone applies to all warnings", words[i]), line.mark(i + 2));
     };
     for (std::size_t i = 0; i < words.size(); ++i) {
         std::string& word = words[i];

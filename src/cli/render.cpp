@@ -16,7 +16,7 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* render_examples =
-    R"(All options of the stage render follow, as in facetmill pipe: --view front, --no-occlusion, --range 0,1.
+    R"(You can add all options of the stage render, as in facetmill pipe: --view front, --no-occlusion, --range 0,1.
 
 Examples
   facetmill render duck.glb -o duck.png
@@ -134,7 +134,7 @@ std::vector<std::string> as_one_liner(const RenderCommandOptions& options,
 void require_other_mesh(const pipeline::Plan& plan) {
     const auto& step = plan.steps.back();
     if (step.stage->compares_with_load())
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "render: deviation is measured from another mesh",
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "render: deviation needs another mesh",
                     "facetmill render low.glb high.glb -o deviation.png --attribute deviation", step.where);
 }
 
@@ -148,12 +148,13 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
     }
     const auto own = take_own(arguments, words);
     if (!own.empty()) parse_own(arguments, own);
-    if (words.empty() || words.front().starts_with("--") || options.output.empty())
-        throw Error(ErrorKind::usage, "E-ARGUMENT",
-                    words.empty() || words.front().starts_with("--")
-                        ? "render needs a mesh file before its options"
-                        : "render needs -o FILE.png",
-                    "for example facetmill render part.stl -o part.png", invocation.line.mark(0));
+    const bool has_mesh = !words.empty() && !words.front().starts_with("--");
+    if (!has_mesh || options.output.empty())
+        throw Error(
+            ErrorKind::usage, "E-ARGUMENT",
+            has_mesh ? "render needs -o FILE.png" : "render needs a mesh file before its options",
+            fmt::format("facetmill render {} -o part.png", has_mesh ? for_shell(words.front()) : "part.stl"),
+            invocation.line.mark(0));
     const CommandLine line(as_one_liner(options, words));
     Problems problems;
     auto settings = plan_settings(options.run, line, problems);
@@ -172,16 +173,17 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
 Command render_command() {
     return {
         "render",
-        "Renders a PNG image of a mesh file, or of two beside each other.",
+        "Renders a PNG image of a mesh file, or of two next to each other.",
         render_examples,
         "MESH [MESH] [OPTIONS OF THE STAGE]",
         [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<RenderCommandOptions>();
-            arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.")
+            arguments
+                .add("-o,--output", &options->output, "The PNG file to write. - writes to standard output.")
                 .followed_by("FILE.png");
             arguments
                 .add("--unit", &options->unit,
-                     "The unit of a file that states none; mm,m: of each of two. Also that of a stored "
+                     "The unit of a file that states none; mm,m: of each of two. Also the unit of a stored "
                      "attribute, for the legend.")
                 .followed_by("UNIT");
             arguments

@@ -35,7 +35,7 @@ void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problem
             if (output != "-" && !seen.insert(output.lexically_normal()).second) {
                 plan.files_collide = true;
                 problems.add({}, "E-DUPLICATE-OUTPUT",
-                             fmt::format("{}: '{}' is written by another pipeline of this run too", plan.name,
+                             fmt::format("{}: another pipeline of this run also writes '{}'", plan.name,
                                          output.string()));
             }
     }
@@ -50,16 +50,16 @@ void check_single(const std::vector<std::string>& pipelines, const PipelineOptio
     for (const auto& [option, is_given] : of_one)
         if (pipelines.size() > 1 && is_given)
             problems.add(line.find(option), "E-ARGUMENT",
-                         fmt::format("{} takes one pipeline, found {}", option, pipelines.size()),
-                         "run them one by one");
+                         fmt::format("{} accepts one pipeline, found {}", option, pipelines.size()),
+                         "run them separately");
 }
 
 struct Planned {
-    std::vector<pipeline::Plan> plans; ///< of the pipelines
+    std::vector<pipeline::Plan> plans; ///< plans of the pipelines
     Problems problems;
 };
 
-/// on_include: as PlanSettings.
+/// on_include: see PlanSettings.
 Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOptions& options,
                  const CommandLine& line, std::function<void(const std::filesystem::path&)> on_include) {
     Planned all;
@@ -72,7 +72,7 @@ Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOption
     return all;
 }
 
-/// on_written: receives the written files of each run if others follow; else empty.
+/// on_written: receives the written files of each run if others follow, otherwise empty.
 int run_all(const std::vector<std::string>& pipelines, const Planned& all, const PipelineOptions& options,
             const Console& console, const std::function<void(const std::filesystem::path&)>& on_written) {
     if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);
@@ -108,7 +108,7 @@ void watch_inputs(const Planned& all, Watch& watch) {
 
 [[noreturn]] void refuse_stream(const char* what, const Mark& where) {
     throw Error(ErrorKind::usage, "E-ARGUMENT",
-                fmt::format("--watch cannot read {} from standard input again", what), "give it as a file",
+                fmt::format("--watch cannot read {} from standard input again", what), "use a file instead",
                 where);
 }
 
@@ -160,8 +160,8 @@ int code_of(const Console& console, Body&& body) {
                 code_of(console, [&] { return run_all(pipelines, *planned, options, console, on_written); });
         console.event({{"level", "info"}, {"event", "watch"}, {"number", number}, {"exit_code", code}});
         if (!console.json)
-            console.say(
-                fmt::format("exit code {}; watching {}, Ctrl-C ends", code, counted(watch.size(), "file")));
+            console.say(fmt::format("exit code {}; watching {}; press Ctrl-C to stop", code,
+                                    counted(watch.size(), "file")));
         const auto changed = watch.wait();
         console.say(fmt::format("{} has changed", changed.string()));
         last = std::move(watch);
@@ -178,7 +178,7 @@ Command run_command() {
                     .required();
                 auto watch = std::make_shared<bool>(false);
                 arguments.add("--watch", watch.get(),
-                              "Run again whenever a pipeline or a file that it reads changes; Ctrl-C ends.");
+                              "Runs again whenever a pipeline or an input changes. Ctrl-C ends it.");
                 add_value_options(arguments, *options);
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);

@@ -28,7 +28,7 @@ Command schema_command() {
                 auto what = std::make_shared<std::string>("pipeline");
                 arguments
                     .add("WHAT", what.get(),
-                         "pipeline (default), report, batch, timings, info, diff or diff-folders.")
+                         "pipeline, report, batch, timings, info, diff or diff-folders. Default: pipeline.")
                     .one_of({"pipeline", "report", "batch", "timings", "info", "diff", "diff-folders"});
                 return [=](const Invocation&) {
                     const Json schema = *what == "report"         ? docs::report_schema()

@@ -26,7 +26,7 @@ int list_stages(const StagesOptions& options, const CommandLine& line) {
     if (!options.name.empty()) {
         const auto* stage = stage_named(options.name);
         if (!stage)
-            throw Error(ErrorKind::usage, "E-STAGE", fmt::format("there is no stage '{}'", options.name),
+            throw Error(ErrorKind::usage, "E-STAGE", fmt::format("stage '{}' does not exist", options.name),
                         hint_for_stage(options.name, stage_names()), line.find(options.name));
         print(docs::stage_page(*stage));
     } else if (options.json)
@@ -44,15 +44,16 @@ int list_stages(const StagesOptions& options, const CommandLine& line) {
 
 Command stages_command() {
     return {"stages",
-            "Lists the stages, or describes one.",
+            "Lists all stages, or describes one stage.",
             stages_examples,
             {},
             [](Arguments& arguments, Console&) {
                 auto options = std::make_shared<StagesOptions>();
                 arguments.add("NAME", &options->name, "A stage.");
-                arguments.add("--json", &options->json, "All of them as JSON.");
-                arguments.add("--markdown", &options->markdown, "All of them as a Markdown page.");
-                arguments.add("--man", &options->man, "All of them as the manual page facetmill-stages(7).");
+                arguments.add("--json", &options->json, "Prints all stages as JSON.");
+                arguments.add("--markdown", &options->markdown, "Prints all stages as a Markdown page.");
+                arguments.add("--man", &options->man,
+                              "Prints all stages as the manual page facetmill-stages(7).");
                 return [=](const Invocation& invocation) { return list_stages(*options, invocation.line); };
             }};
 }

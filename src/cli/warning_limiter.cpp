@@ -36,7 +36,7 @@ void WarningLimiter::finish() {
         if (kind.count <= most) continue;
         if (kind.count > most + 1) { // a single omitted warning takes no more room than the note about it
             kind.last.message = fmt::format("{} more like these", grouped(kind.count - most));
-            kind.last.hint = "a report lists them all: --report run.json";
+            kind.last.hint = "--report run.json lists all of them";
         }
         console_.diagnostic(kind.last);
     }

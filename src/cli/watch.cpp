@@ -57,7 +57,7 @@ fs::path Watch::wait() const {
         found = now();
     }
     const auto differs =
-        std::find_if(found.begin(), found.end(), [this](const auto& one) { // it contains all of files_
+        std::find_if(found.begin(), found.end(), [this](const auto& one) { // `found` has all of files_
             const auto known = files_.find(one.first);
             return known == files_.end() || known->second != one.second;
         });

@@ -70,7 +70,7 @@ std::string with_dollars_doubled(const std::string& text) {
     for (const char c : text) {
         if (c == '\n' || c == '\r')
             throw Error(ErrorKind::output, "E-DEPFILE",
-                        "a workflow cannot name a path with a line break: " + text);
+                        "a workflow cannot use a path with a line break: " + text);
         out += c;
         if (c == '$') out += c;
     }
@@ -90,10 +90,10 @@ void check_outputs(const std::vector<Job>& jobs) {
     for (const auto& job : jobs)
         if (job.outputs.empty())
             throw Error(ErrorKind::usage, "E-EXPORT",
-                        fmt::format("the run of {} writes no file that is known before it, so no engine can "
-                                    "tell whether it is due",
+                        fmt::format("the run of {} has no output with a known name, so a workflow cannot "
+                                    "check whether it is up to date",
                                     job.name),
-                        "give the pipeline a report: \"${input.stem}.json\", or use facetmill batch");
+                        "add a report to the pipeline: \"${input.stem}.json\", or use facetmill batch");
 }
 
 /// Linux limits an argument to 131072 bytes, and the shell gets its command as a single argument. Reserves
@@ -105,12 +105,12 @@ void check_lengths(const std::vector<Job>& jobs, CommandOf command) {
         const std::size_t length = command(job, std::string(of_program, 'p'), as_it_is).size();
         if (length <= most) continue;
         const std::size_t fit = job.runs.size() * most / length;
-        throw Error(
-            ErrorKind::usage, "E-EXPORT",
-            fmt::format("the command of {} has {} bytes, and a shell takes {}", job.name, length, most),
-            job.runs.size() > 1
-                ? fmt::format("--shard {}", std::max<std::size_t>(1, fit))
-                : "give long params in a --preset, or write fewer files or files of shorter names");
+        throw Error(ErrorKind::usage, "E-EXPORT",
+                    fmt::format("the command of {} has {} bytes, but a shell accepts at most {}", job.name,
+                                length, most),
+                    job.runs.size() > 1
+                        ? fmt::format("--shard {}", std::max<std::size_t>(1, fit))
+                        : "put long params into a --preset, or write fewer files or shorter names");
     }
 }
 
@@ -158,8 +158,7 @@ std::string as_json(const Json& all) {
     try {
         return all.dump(1);
     } catch (const Json::exception&) {
-        throw Error(ErrorKind::usage, "E-EXPORT",
-                    "the name of a file is not UTF-8, which a Snakefile requires",
+        throw Error(ErrorKind::usage, "E-EXPORT", "a file name is not UTF-8, but a Snakefile needs UTF-8",
                     "use --to ninja or make, or rename the file");
     }
 }
@@ -167,7 +166,7 @@ std::string as_json(const Json& all) {
 } // namespace
 
 std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
-    check_outputs(jobs); // of each run
+    check_outputs(jobs); // checks the outputs of each run
     std::vector<Job> shards;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (size <= 1 || i % size == 0) {
@@ -219,7 +218,7 @@ std::string ninja_pools(const Lanes& lanes, const Resources& resources) {
     std::string text = fmt::format("# Jobs at a time, for {}.\npool small\n  depth = {}\n",
                                    in_words(resources), lanes.small);
     if (lanes.large > 0)
-        text += fmt::format("# Those that need more than {} each.\npool large\n  depth = {}\n",
+        text += fmt::format("# Jobs that need more than {} each.\npool large\n  depth = {}\n",
                             sized(lanes.small_up_to), lanes.large);
     return text;
 }

@@ -16,14 +16,14 @@ struct Job {
 };
 
 /// Groups up to `size` jobs into a job, in order. A failing run does not stop the other runs of its group.
-/// Throws usage (E-EXPORT) for a job without outputs.
+/// Throws a usage error (E-EXPORT) for a job without outputs.
 [[nodiscard]] std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size);
 
 /// The resources of parallel jobs.
 struct Resources {
-    int threads = 1; ///< of each job
+    int threads = 1; ///< threads of each job
     int cores = 1;
-    std::uint64_t memory = 0; ///< bytes
+    std::uint64_t memory = 0; ///< in bytes
 };
 
 /// The number of parallel jobs that need little memory, and that need much. A job that needs more than all
@@ -34,8 +34,9 @@ struct Lanes {
 };
 [[nodiscard]] Lanes lanes_of(const std::vector<Job>& jobs, const Resources& resources);
 
-/// Throws usage (E-EXPORT) for a job without outputs, and for a group whose command exceeds the shell's
-/// limit. Throws output (E-DEPFILE) for a name with a line break, which these engines cannot represent.
+/// Throws a usage error (E-EXPORT) for a job without outputs, and for a group whose command exceeds the
+/// shell's limit. Throws an output error (E-DEPFILE) for a name with a line break, which these engines
+/// cannot represent.
 [[nodiscard]] std::string ninja_workflow(const std::vector<Job>& jobs, const Resources& resources);
 [[nodiscard]] std::string make_workflow(const std::vector<Job>& jobs, const Resources& resources);
 [[nodiscard]] std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources);

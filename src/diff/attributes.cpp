@@ -12,9 +12,9 @@ namespace facetmill::report {
 namespace {
 
 struct FoundAttribute {
-    std::set<std::string> types; ///< of all parts that have it
+    std::set<std::string> types; ///< types in all parts that have it
     std::size_t elements = 0;
-    std::vector<const Attribute*> arrays; ///< one for each part that has it
+    std::vector<const Attribute*> arrays; ///< an array for each part that has it
 
     Json about() const { return fmt::format("{}", fmt::join(types, ", ")); }
 };
@@ -73,7 +73,7 @@ void compare_values(const Comparing& with, const std::string& name, const FoundA
                                   });
     if (!alike)
         return with.leave("attributes", name, a.about(), b.about(),
-                          fmt::format("values of {} and {} elements", a.elements, b.elements));
+                          fmt::format("the numbers of elements differ, {} and {}", a.elements, b.elements));
     double most = 0;
     std::size_t where = 0, before = 0;
     for (std::size_t k = 0; k < a.arrays.size(); ++k) {

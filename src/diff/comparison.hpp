@@ -31,19 +31,19 @@ struct ComparisonSettings {
     std::optional<Origin> origin;  ///< empty: the scenes are in the conventions of their files
 };
 
-/// One line of the comparison.
+/// A line of the comparison.
 struct Difference {
     std::string section, name;
     Json a, b;
     bool same = true;
     std::string note;       ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
     bool compared = true;   ///< false: comparing was impossible, for the reason in note
-    bool of_places = false; ///< of a material: its position instead of its appearance
+    bool of_places = false; ///< for a material: its position instead of its appearance
 };
 
 /// A part of a file that was not read, and therefore not compared.
 struct LeftOut {
-    bool of_a = false; ///< in the first file, else in the second
+    bool of_a = false; ///< true: in the first file; false: in the second
     std::string what;
 };
 
@@ -70,11 +70,11 @@ struct Comparison {
     bool complete() const;
 };
 
-/// Compares the properties of property_table() one by one. The deviation is measured both ways, between the
-/// surfaces, or between the points if a scene has no faces. Attributes are compared by name, domain and type,
-/// and by value if both have the same number of elements. Materials are compared by name, appearance and
-/// faces, parts by name. For glTF documents, contents other than meshes are compared too. In world space;
-/// both scenes must use the same convention.
+/// Compares the properties of property_table() one by one. The deviation is measured in both directions,
+/// between the surfaces, or between the points if a scene has no faces. Attributes are compared by name,
+/// domain and type, and by value if both have the same number of elements. Materials are compared by name,
+/// appearance and faces, parts by name. For glTF documents, contents other than meshes are compared too. In
+/// world space; both scenes must use the same convention.
 [[nodiscard]] Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
 
 /// {a, b, same, complete, left_out, sections: {counts: {same, decides, lines: [{name, a, b, same, compared,

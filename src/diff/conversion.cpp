@@ -183,14 +183,16 @@ Given given_by_command_line(const Origin& origin, UpAxis up) {
     return out;
 }
 
-/// The options that give the first file the one value and the second the other.
+/// The options that give each file its value.
 std::string way_to_say(const char* option, const char* what, std::string_view from, std::string_view to,
                        bool first_states, bool second_states) {
     if (first_states && second_states)
         return fmt::format("both files state {}, and one seems to be wrong", what);
-    if (first_states) return fmt::format("{} {} says so of the second file, which states none", option, to);
-    if (second_states) return fmt::format("{} {} says so of the first file, which states none", option, from);
-    return fmt::format("{} {},{} says so of the files, which state none", option, from, to);
+    if (first_states)
+        return fmt::format("use {} {}, because the second file does not state {}", option, to, what);
+    if (second_states)
+        return fmt::format("use {} {}, because the first file does not state {}", option, from, what);
+    return fmt::format("use {} {},{}, because neither file states {}", option, from, to, what);
 }
 
 void add(std::string& text, const char* joint, const std::string& more) {
@@ -206,7 +208,7 @@ std::string words_for(const AxisTurn& turn) {
         for (std::size_t column = 0; column < 4; ++column)
             add(matrix, ",", column == turn.from[row] ? fmt::format("{}1", sign) : "0");
     }
-    return fmt::format("turned so that its x, y, z are {} (transform --matrix {})", axes, matrix);
+    return fmt::format("rotated so that its x, y, z become {} (transform --matrix {})", axes, matrix);
 }
 
 /// The text of a hint, and its options for the command line.
@@ -216,11 +218,11 @@ struct Words {
 
 void tell_units(const UnitFactor& units, const Given& given, const Origin& origin, Words& words) {
     if (units.factor == 1) {
-        if (given.factor != 1) add(words.how, ", and ", "without --unit");
+        if (given.factor != 1) add(words.how, " and ", "read without --unit");
         return;
     }
-    add(words.how, ", and ",
-        fmt::format("times {:.6g}, as from {} to {}", units.factor, to_string(units.from),
+    add(words.how, " and ",
+        fmt::format("scaled by {:.6g} (from {} to {})", units.factor, to_string(units.from),
                     to_string(units.to)));
     add(words.way, "; ",
         way_to_say("--unit", "a unit", to_string(units.from), to_string(units.to),
@@ -240,17 +242,17 @@ void tell_turn(const AxisTurn& own, const AxisTurn& now, const Given& given, con
                Words& words) {
     for (const auto& [from, to] : {std::pair(UpAxis::y, UpAxis::z), std::pair(UpAxis::z, UpAxis::y)})
         if (is_of_up_axes(own, from, to, origin)) {
-            add(words.how, ", and ",
-                fmt::format("turned from {} up to {} up", to_string(from), to_string(to)));
+            add(words.how, " and ",
+                fmt::format("rotated from {} up to {} up", to_string(from), to_string(to)));
             add(words.way, "; ",
                 way_to_say("--up", "an up axis", to_string(from), to_string(to),
                            origin.a.up != UpAxis::unknown, origin.b.up != UpAxis::unknown));
             return;
         }
     if (own == AxisTurn{} && given.turn != AxisTurn{})
-        add(words.how, ", and ", "without --up");
+        add(words.how, " and ", "read without --up");
     else if (now != AxisTurn{})
-        add(words.how, ", and ", words_for(now));
+        add(words.how, " and ", words_for(now));
 }
 
 } // namespace
@@ -269,7 +271,7 @@ std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin
     tell_units(units, given, origin, words);
     tell_turn(*own, *now, given, origin, words);
     if (words.how.empty()) return {};
-    return fmt::format("the box of the second file is that of the first {}{}{}", words.how,
+    return fmt::format("the bounding boxes match if the first file is {}{}{}", words.how,
                        words.way.empty() ? "" : ": ", words.way);
 }
 

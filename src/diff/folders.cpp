@@ -34,7 +34,7 @@ std::set<std::string> meshes_in(const fs::path& folder) {
     }
     if (error)
         throw Error(ErrorKind::missing, "E-FILE",
-                    fmt::format("cannot look into '{}': {}", folder.string(), error.message()),
+                    fmt::format("cannot read the folder '{}': {}", folder.string(), error.message()),
                     "check its permissions");
     return paths;
 }
@@ -57,9 +57,10 @@ void add_namesakes(const Namesakes& n, std::vector<PairedPaths>& pairs) {
         return;
     }
     const auto why = [&](const std::vector<std::string>& others, const char* folder) {
-        return others.empty() ? std::string()
-                              : fmt::format("not paired, as several are called alike: the {} folder has {}",
-                                            folder, listed(others));
+        return others.empty()
+                   ? std::string()
+                   : fmt::format("not paired, because several files share this name: the {} folder has {}",
+                                 folder, listed(others));
     };
     for (const auto& path : n.a) pairs.push_back({path, {}, why(n.b, "second")});
     for (const auto& path : n.b) pairs.push_back({{}, path, why(n.a, "first")});
@@ -173,7 +174,7 @@ std::string PairedPaths::text() const {
 std::vector<PairedPaths> pairs_in(const fs::path& a, const fs::path& b) {
     const auto in_a = meshes_in(a), in_b = meshes_in(b);
     std::vector<PairedPaths> pairs;
-    std::map<std::string, Namesakes> rest; // by path without suffix
+    std::map<std::string, Namesakes> rest; // the other files, by path without suffix
     const auto stem = [](const std::string& path) { return fs::path(path).replace_extension().string(); };
     for (const auto& path : in_a)
         if (in_b.contains(path))
@@ -260,7 +261,7 @@ std::string to_html(const FolderComparison& c, const std::string& path_a, const 
             number_cell(change_text(p, p.bytes_a, p.bytes_b, sized)), cell(escaped(more_of(p))));
     }
     std::string out = comparison_begin(short_names(path_a, path_b), {path_a, path_b},
-                                       "Compared by facetmill diff, the worst first.");
+                                       "Compared by facetmill diff. The largest differences come first.");
     out += fmt::format("<p class=\"verdict {}\">{}: {}</p>\n", c.differs() ? "bad" : "good",
                        c.differs() ? "differ" : "agree", tally(c));
     return out +

@@ -24,13 +24,13 @@ struct FolderPair {
     enum class Outcome { failed, differs, removed, added, same }; ///< worst first
     PairedPaths paths;
     Outcome outcome = Outcome::same;
-    int exit_code = 0;   ///< as for `facetmill diff` of the two
+    int exit_code = 0;   ///< the exit code of `facetmill diff` for these two files
     std::string verdict; ///< "agree", or the reason of the failure
     std::optional<double>
         percent; ///< largest deviation, in percent of the first file's diagonal; none: not measured
     std::uint64_t faces_a = 0, faces_b = 0, bytes_a = 0, bytes_b = 0;
     std::string differs_in;            ///< "counts, geometry"
-    std::string page;                  ///< of this pair, relative to the index; empty: none
+    std::string page;                  ///< page of this pair, relative to the index; empty: no page
     std::string picture_a, picture_b;  ///< small PNGs in base64; empty: none
     std::vector<Diagnostic> not_drawn; ///< textures missing in pictures
 };
@@ -43,7 +43,7 @@ struct FolderComparison {
 
 /// The mesh files below both folders, sorted by path. Files with the same path are a pair. Remaining files
 /// whose paths differ only by suffix are pairs too (a.ply, a.glb), if each folder has only one. Does not
-/// follow links to folders. Throws missing (E-FILE) for an unreadable folder.
+/// follow links to folders. Throws a missing-file error (E-FILE) for an unreadable folder.
 [[nodiscard]] std::vector<PairedPaths> pairs_in(const std::filesystem::path& a,
                                                 const std::filesystem::path& b);
 

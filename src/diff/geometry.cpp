@@ -15,7 +15,9 @@ namespace {
 /// Reports that only one file states its unit or its up axis.
 void compare_frames(const Comparing& with) {
     const auto say = [&](const char* name, const char* a, const char* b) {
-        if (std::string_view(a) != b) with.add("geometry", name, a, b, true, "numbers are taken as they are");
+        if (std::string_view(a) != b)
+            with.add("geometry", name, a, b, true,
+                     "only one file states it; coordinates are compared unchanged");
     };
     say("unit", to_string(with.a.unit), to_string(with.b.unit));
     say("up", to_string(with.a.up), to_string(with.b.up));
@@ -46,8 +48,8 @@ class Distances {
         std::string note = std::isfinite(value) ? percentage(d_.percent(value), 4) + " of the diagonal"
                                                 : "nothing to compare with";
         if (limit)
-            note += limit->percent ? fmt::format(", at most {:g} %", limit->amount)
-                                   : fmt::format(", at most {:g}", limit->amount);
+            note += limit->percent ? fmt::format(", limit {:g} %", limit->amount)
+                                   : fmt::format(", limit {:g}", limit->amount);
         with_.add("geometry", name, finite_or_null(forward), finite_or_null(backward), value <= most,
                   note + more);
     }
@@ -67,7 +69,7 @@ void compare_fans(const Comparing& with) {
     const std::size_t a = fans(with.a), b = fans(with.b);
     if (a + b > 0)
         with.add("geometry", "overlapping fans", a, b, true,
-                 "faces that intersect themselves in no plane: distances are of fans of triangles");
+                 "non-planar faces that intersect themselves are measured as triangle fans");
 }
 
 /// Compares points of scenes with faces: the distance from each point to the nearest point of the other
@@ -82,7 +84,7 @@ void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, con
     const DirectedDeviation f = farthest(a, b), g = farthest(b, a);
     const auto& worst = f.maximum >= g.maximum ? f : g;
     std::string more = fmt::format(", {} and {} vertices without faces", isolated(a), isolated(b));
-    if (worst.maximum > 0 && std::isfinite(worst.maximum)) more += ", farthest " + readable(worst.from);
+    if (worst.maximum > 0 && std::isfinite(worst.maximum)) more += ", farthest at " + readable(worst.from);
     distances.line("isolated vertices maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
 }
 

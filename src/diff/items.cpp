@@ -30,8 +30,9 @@ double farthest_move(const Part& a, const Part& b) {
 /// Empty if they are equal.
 std::string part_note(const Part& a, const Part& b, double most) {
     if (a.mesh.face_count() != b.mesh.face_count() || a.mesh.vertex_count() != b.mesh.vertex_count())
-        return "other counts";
-    if (a.mesh.corners != b.mesh.corners || a.mesh.face_offsets != b.mesh.face_offsets) return "other faces";
+        return "different counts";
+    if (a.mesh.corners != b.mesh.corners || a.mesh.face_offsets != b.mesh.face_offsets)
+        return "different faces";
     const double move = farthest_move(a, b);
     return move > most ? fmt::format("moved by up to {:.4g}", move) : "";
 }
@@ -50,10 +51,10 @@ Json contents_or_null(io::MaterialContents& contents, const Material& material) 
     }
 }
 
-/// "other emissiveTexture, roughnessFactor": the differences of two glTF materials; empty if equal.
+/// "different emissiveTexture, roughnessFactor": the differences of two glTF materials; empty if equal.
 std::string look_note(const Json& a, const Json& b) {
     if (a == b) return {};
-    if (!a.is_object() || !b.is_object()) return "another look";
+    if (!a.is_object() || !b.is_object()) return "different properties";
     std::string keys;
     const auto add = [&](const Json& x, const Json& y) {
         for (const auto& [key, value] : x.items())
@@ -66,7 +67,7 @@ std::string look_note(const Json& a, const Json& b) {
     const auto pbr = [&](const Json& m) { return m.value("pbrMetallicRoughness", none_told); };
     add(a, b);
     add(pbr(a), pbr(b));
-    return keys.empty() ? "another look" : "other " + keys;
+    return keys.empty() ? "different properties" : "different " + keys;
 }
 
 /// Pairs each item of the first list with an unused item of the same name in the second.
@@ -135,8 +136,8 @@ std::vector<ItemChange> item_changes(const Scene& a, const Scene& b, double most
     io::MaterialContents of_a(a), of_b(b);
     const auto note = [&](const Material& x, const Material& y) -> std::string {
         if (!std::equal(std::begin(x.base_colour), std::end(x.base_colour), std::begin(y.base_colour)))
-            return "another colour";
-        if (x.double_sided != y.double_sided) return "other sides";
+            return "different colour";
+        if (x.double_sided != y.double_sided) return "only one is double-sided";
         return look_note(contents_or_null(of_a, x), contents_or_null(of_b, y));
     };
     add_changes(a.materials, b.materials, false, colour_text, note, out);

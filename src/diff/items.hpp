@@ -1,5 +1,5 @@
 #pragma once
-// Pairs the parts and materials of two scenes by name, and finds added, removed and changed ones.
+// Pairs the parts and materials of two scenes by name, and finds added, removed and changed items.
 
 #include "mesh/scene.hpp"
 
@@ -10,7 +10,7 @@ namespace facetmill::report {
 
 struct ItemChange {
     enum class Change { added, removed, changed, same };
-    bool is_part = true; ///< else a material
+    bool is_part = true; ///< true: a part; false: a material
     std::string name;    ///< several items with the same name are paired in order
     Change change = Change::same;
     std::string before, after; ///< description: "1,200 faces"; empty: missing

@@ -89,25 +89,27 @@ Json closed_object(Json properties) {
 
 Json comparison_schema() {
     const Json value = {{"type", Json::array({"null", "boolean", "number", "string"})}};
-    const Json line =
-        closed_object({{"name", typed("string")},
-                       {"a", value},
-                       {"b", value},
-                       {"same", typed("boolean")},
-                       {"compared", typed("boolean", "False when it could not be: the note says why")},
-                       {"note", {{"type", Json::array({"string", "null"})}}}});
-    const Json section = closed_object({{"same", typed("boolean")},
-                                        {"decides", typed("boolean", "False when ignored")},
-                                        {"lines", {{"type", "array"}, {"items", line}}}});
+    const Json line = closed_object(
+        {{"name", typed("string")},
+         {"a", value},
+         {"b", value},
+         {"same", typed("boolean")},
+         {"compared",
+          typed("boolean", "False when the values could not be compared; the note gives the reason.")},
+         {"note", {{"type", Json::array({"string", "null"})}}}});
+    const Json section = closed_object(
+        {{"same", typed("boolean")},
+         {"decides", typed("boolean", "Whether differences in this section change the exit code.")},
+         {"lines", {{"type", "array"}, {"items", line}}}});
     Json sections =
-        typed("object", "By section: counts, topology, geometry, attributes, materials, parts, document");
+        typed("object", "The sections: counts, topology, geometry, attributes, materials, parts, document.");
     sections["additionalProperties"] = section;
     const Json left_out =
         closed_object({{"file", {{"enum", Json::array({"a", "b"})}}}, {"what", typed("string")}});
     const Json kind = {{"enum", Json::array({"surface", "points", "nothing"})}};
     Json geometry_of = closed_object({{"a", kind}, {"b", kind}});
     geometry_of["type"] = Json::array({"object", "null"});
-    geometry_of["description"] = "What the deviation is of; null when ignored";
+    geometry_of["description"] = "The geometry that was measured. Null when geometry is ignored.";
     const Json change = closed_object({{"of", {{"enum", Json::array({"part", "material"})}}},
                                        {"name", typed("string")},
                                        {"change", {{"enum", Json::array({"added", "removed", "changed"})}}},
@@ -117,26 +119,35 @@ Json comparison_schema() {
                                {"textures", typed("integer")},
                                {"json", typed("integer")}});
     size["type"] = Json::array({"object", "null"});
-    size["description"] = "Of the file and those that it names; null of standard input";
-    const Json properties = typed("object", "As info tells them");
+    size["description"] =
+        "The size of the file and the files that it refers to, in bytes. Null for standard input.";
+    const Json properties = typed("object", "The properties, as in facetmill info.");
     Json schema = closed_object(
-        {{"a", typed("string", "The first file")},
+        {{"a", typed("string", "The first file.")},
          {"bytes", closed_object({{"a", size}, {"b", size}})},
          {"properties", closed_object({{"a", properties}, {"b", properties}})},
          {"changes",
-          {{"type", "array"}, {"items", change}, {"description", "Parts and materials by their names"}}},
-         {"b", typed("string", "The second file")},
-         {"same", typed("boolean", "Nothing that decides differs: the exit code is 0")},
-         {"complete", typed("boolean", "Nothing was left out, and all that decides could be compared")},
+          {{"type", "array"},
+           {"items", change},
+           {"description", "Parts and materials that differ, matched by name."}}},
+         {"b", typed("string", "The second file.")},
+         {"same",
+          typed("boolean",
+                "Whether the files are the same, apart from ignored sections. The exit code is then 0.")},
+         {"complete",
+          typed("boolean", "Whether both files were read completely and every deciding value was compared.")},
          {"left_out",
-          {{"type", "array"}, {"items", left_out}, {"description", "Contents of a file that were not read"}}},
+          {{"type", "array"},
+           {"items", left_out},
+           {"description", "Contents of a file that could not be read."}}},
          {"geometry_of", geometry_of},
          {"sections", std::move(sections)},
          {"hint",
           {{"type", Json::array({"string", "null"})},
-           {"description", "A unit or an up axis that would explain how the geometry differs"}}},
+           {"description", "A unit or up axis that would explain the difference in geometry."}}},
          {"deviation",
-          {{"type", Json::array({"object", "null"})}, {"description", "As in reports; null when ignored"}}}});
+          {{"type", Json::array({"object", "null"})},
+           {"description", "The deviation, as in reports. Null when geometry is ignored."}}}});
     Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "facetmill diff"}};
     out.update(schema);
     return out;

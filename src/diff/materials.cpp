@@ -6,6 +6,7 @@
 #include "mesh/lines.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
@@ -36,6 +37,9 @@ Json in_short(const Json& value) { return value.is_structured() ? Json(value.dum
 /// Removes data that is compared elsewhere, and default values.
 Json beside_basics(Json material) {
     for (const char* key : {"name", "doubleSided"}) material.erase(key);
+    const Json::json_pointer volume("/extensions/KHR_materials_volume");
+    if (material.contains(volume) && material[volume].is_object())
+        material[volume].erase("thicknessFactor"); // its meaning depends on the scale of the mesh
     if (const auto pbr = material.find("pbrMetallicRoughness"); pbr != material.end()) {
         pbr->erase("baseColorFactor");
         if (pbr->empty()) material.erase("pbrMetallicRoughness");
@@ -59,7 +63,7 @@ void compare_contents(const Comparing& with, io::MaterialContents& of_a, io::Mat
         if (a.is_null() != b.is_null()) {
             if (!is_plain(a.is_null() ? b : a))
                 with.leave("materials", name + " as glTF", !a.is_null(), !b.is_null(),
-                           "only one is of a glTF");
+                           "only one file is glTF");
             return;
         }
         if (a.is_null()) return;
@@ -97,7 +101,7 @@ Surface of_material(const Surface& surface, const std::vector<Index>& materials,
     return out;
 }
 
-/// The materials of both, if there are several; else none.
+/// The materials of both, if there are several; otherwise none.
 std::set<Index> materials_to_compare(const std::vector<Index>& a, const std::vector<Index>& b) {
     if (a == b || a.empty() || b.empty()) return {};
     std::set<Index> all(a.begin(), a.end());
@@ -122,7 +126,7 @@ std::string elements_of(const Comparing& with, const char* elements, Index mater
                         : fmt::format("the {} of '{}'", elements, name);
 }
 
-/// Compares the faces of each material: by number if the faces are the same, else by position.
+/// Compares the faces of each material: by number if the faces are the same, otherwise by position.
 void compare_places(const Comparing& with) {
     const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
     const std::set<Index> all = materials_to_compare(a, b);
@@ -135,10 +139,10 @@ void compare_places(const Comparing& with) {
     ProgressSteps steps(std::vector<double>(all.size(), 1));
     for (const Index material : all) {
         const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
-        with.add(
-            "materials", material == none ? "faces of none" : fmt::format("{} faces", material),
-            finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
-            fmt::format("how far {} are from those of the other file", elements_of(with, "faces", material)));
+        with.add("materials", material == none ? "faces of none" : fmt::format("{} faces", material),
+                 finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
+                 fmt::format("distance of {} from the same material in the other file",
+                             elements_of(with, "faces", material)));
         with.result.lines.back().of_places = true;
         steps.next();
     }
@@ -163,11 +167,53 @@ void compare_places_of_lines(const Comparing& with) {
     for (const Index material : all) {
         const LineShape &x = of_a[material], &y = of_b[material];
         const double forward = x.distance_to(y), backward = y.distance_to(x);
-        with.add(
-            "materials", material == none ? "lines of none" : fmt::format("{} lines", material),
-            finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
-            fmt::format("how far {} are from those of the other file", elements_of(with, "lines", material)));
+        with.add("materials", material == none ? "lines of none" : fmt::format("{} lines", material),
+                 finite_or_null(forward), finite_or_null(backward), std::max(forward, backward) <= most,
+                 fmt::format("distance of {} from the same material in the other file",
+                             elements_of(with, "lines", material)));
         with.result.lines.back().of_places = true;
+    }
+}
+
+std::string text_of(const std::vector<double>& lengths) {
+    std::string text;
+    for (const double x : lengths) text += fmt::format("{}{:.6g}", text.empty() ? "" : " ", x);
+    return text;
+}
+
+/// True if every length has a counterpart within a millionth.
+bool same_lengths(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+        return std::abs(x - y) <= 1e-6 * std::max(std::abs(x), std::abs(y));
+    });
+}
+
+/// All lengths, ascending, each once.
+std::vector<double> in_one(const std::vector<std::vector<double>>& parts) {
+    std::vector<double> all;
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end(), [](double x, double y) { return y - x <= 1e-6 * y; }),
+              all.end());
+    return all;
+}
+
+/// Compares the thickness that light passes in the world, part by part if both have the same number of parts.
+void compare_thickness(const Comparing& with) {
+    try {
+        const auto a = io::thicknesses(with.a), b = io::thicknesses(with.b);
+        if (a.size() != b.size()) {
+            const auto x = in_one(a), y = in_one(b);
+            if (!x.empty() || !y.empty())
+                with.add("materials", "thickness", text_of(x), text_of(y), same_lengths(x, y));
+            return;
+        }
+        for (std::size_t i = 0; i < a.size(); ++i)
+            if (!a[i].empty() || !b[i].empty())
+                with.add("materials", fmt::format("thickness in part {}", i), text_of(a[i]), text_of(b[i]),
+                         same_lengths(a[i], b[i]));
+    } catch (const Error& e) {
+        with.leave("materials", "thickness", nullptr, nullptr, e.what());
     }
 }
 
@@ -183,6 +229,7 @@ void compare_materials(const Comparing& with) {
         with.add("materials", name + " double_sided", a[i].double_sided, b[i].double_sided);
         compare_contents(with, of_a, of_b, i);
     }
+    compare_thickness(with);
     if (with.settings.ignored.contains("materials")) return;
     compare_places(with);
     compare_places_of_lines(with);

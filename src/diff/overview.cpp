@@ -41,9 +41,9 @@ std::vector<SideRow> rows_of(const Comparison& c) {
             rows.push_back({name, sized(a), sized(b), {}, {}});
         };
         add("bytes", c.size_a->bytes, c.size_b->bytes);
-        add("of geometry", c.size_a->kinds.geometry, c.size_b->kinds.geometry);
-        add("of textures", c.size_a->kinds.textures, c.size_b->kinds.textures);
-        add("of JSON", c.size_a->kinds.json, c.size_b->kinds.json);
+        add("bytes of geometry", c.size_a->kinds.geometry, c.size_b->kinds.geometry);
+        add("bytes of textures", c.size_a->kinds.textures, c.size_b->kinds.textures);
+        add("bytes of JSON", c.size_a->kinds.json, c.size_b->kinds.json);
     }
     for (const char* name : {"parts", "materials", "faces", "triangles", "vertices", "components"})
         if (const Property* p = property_named(name))
@@ -93,7 +93,7 @@ std::string elsewhere(const Comparison& c) {
     });
     return count == 0
                ? ""
-               : fmt::format("; where they are differs for {}, see the section materials below", count);
+               : fmt::format("; {} of them cover different areas (see the section materials below)", count);
 }
 
 /// The items that are not equal, up to a limit.
@@ -118,7 +118,7 @@ std::string item_table(const Comparison& c, bool parts) {
     const char* title = parts ? "Parts by name" : "Materials by name";
     const std::string counts = tally(all) + (parts ? std::string() : elsewhere(c));
     if (rows.empty()) return fmt::format("<h2>{}</h2>\n<p>{}</p>\n", title, counts);
-    return table(title, heads({"change", "name", "first", "second", "how"}), rows) +
+    return table(title, heads({"change", "name", "first", "second", "difference"}), rows) +
            fmt::format("<p class=\"soft\">{}</p>\n", counts);
 }
 
@@ -128,7 +128,7 @@ void add_markdown_items(const Comparison& c, bool parts, std::string& out) {
         rows.push_back({to_string(item->change), markdown_escaped(item->name), markdown_escaped(item->before),
                         markdown_escaped(item->after), markdown_escaped(item->note)});
     out += markdown_table(parts ? "Parts by name" : "Materials by name",
-                          {"change", "name", "first", "second", "how"}, rows);
+                          {"change", "name", "first", "second", "difference"}, rows);
 }
 
 } // namespace
@@ -145,25 +145,25 @@ std::string soundness_text(const Properties& properties) {
             append_item(missing, p.truth() ? fmt::format("not {}", p.name)
                                            : fmt::format("{} {}", value_text(p, properties), p.name));
     }
-    return good == all ? "sound" : fmt::format("{} of {} sound: {}", good, all, missing);
+    return good == all ? "sound" : fmt::format("{} of {} checks passed: {}", good, all, missing);
 }
 
 std::string overview_html(const Comparison& c) {
-    std::string rows = fmt::format("<tr><th scope=\"row\">verdict</th>{}{}</tr>\n",
+    std::string rows = fmt::format("<tr><th scope=\"row\">soundness</th>{}{}</tr>\n",
                                    number_cell(escaped(soundness_text(c.properties_a))),
                                    number_cell(escaped(soundness_text(c.properties_b))));
     for (const SideRow& row : rows_of(c))
         rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(row.name),
                             side_cell(row.a, row.good_a), side_cell(row.b, row.good_b));
-    return table("Beside each other", heads({"", "#first", "#second"}), rows) + item_table(c, true) +
+    return table("Side by side", heads({"", "#first", "#second"}), rows) + item_table(c, true) +
            item_table(c, false);
 }
 
 std::string overview_markdown(const Comparison& c) {
-    std::vector<std::vector<std::string>> rows{{"verdict", markdown_escaped(soundness_text(c.properties_a)),
+    std::vector<std::vector<std::string>> rows{{"soundness", markdown_escaped(soundness_text(c.properties_a)),
                                                 markdown_escaped(soundness_text(c.properties_b))}};
     for (const SideRow& row : rows_of(c)) rows.push_back({markdown_escaped(row.name), row.a, row.b});
-    std::string out = markdown_table("Beside each other", {"", "first", "second"}, rows);
+    std::string out = markdown_table("Side by side", {"", "first", "second"}, rows);
     add_markdown_items(c, true, out);
     add_markdown_items(c, false, out);
     return out;

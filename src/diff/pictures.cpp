@@ -58,7 +58,7 @@ ComparisonPictures comparison_pictures(const Scene& a, const Scene& b, const std
                                  seen_a, settings);
     for (auto* view : {&out.backward, &out.forward})
         if (*view) (*view)->posed = posed_a || posed_b;
-    if (out.forward) out.forward->diagonal = box_a.diagonal(); // one reference for all percentages
+    if (out.forward) out.forward->diagonal = box_a.diagonal(); // all percentages use the same reference
     ViewedScenes viewed(2);
     const auto [short_a, short_b] = short_names(name_a, name_b);
     viewed.add_before(a, short_a, looks_a);

@@ -26,7 +26,7 @@ struct Outcome {
 Outcome outcome_of(const Difference& d) {
     if (!d.same) return {"differs", "bad"};
     if (!d.compared) return {"not compared", "warn"};
-    if (d.a != d.b) return {"noted", "soft"}; // no limit, or within it
+    if (d.a != d.b) return {"allowed", "soft"}; // no limit, or within it
     return {"same", "good"};
 }
 
@@ -55,19 +55,20 @@ std::vector<std::string> measured_lines(const Comparison& comparison) {
     const auto& way = forward ? d.forward : d.backward;
     if (way.maximum > 0 && std::isfinite(way.maximum)) {
         const Vec3 &p = way.from, &q = way.to;
-        lines.push_back(
-            fmt::format("farthest: {:.6g} {:.6g} {:.6g} of {}, nearest there {:.6g} {:.6g} {:.6g}", p.x, p.y,
-                        p.z, forward ? "the first" : "the second", q.x, q.y, q.z));
+        lines.push_back(fmt::format(
+            "farthest point: {:.6g} {:.6g} {:.6g} in the {} file; nearest point in the {} file: "
+            "{:.6g} {:.6g} {:.6g}",
+            p.x, p.y, p.z, forward ? "first" : "second", forward ? "second" : "first", q.x, q.y, q.z));
     }
     lines.push_back(
-        fmt::format("{} and {} samples ({} and {} averaged), seed {}, and all {} and {} vertices; "
-                    "percentages of {:.6g}",
+        fmt::format("measured: {} and {} samples (rms and mean use {} and {}; seed {}), and all {} and {} "
+                    "vertices; 100 % is the diagonal, {:.6g}",
                     grouped(d.forward.samples), grouped(d.backward.samples), grouped(d.forward.averaged),
                     grouped(d.backward.averaged), d.seed, grouped(d.forward.vertices),
                     grouped(d.backward.vertices), d.diagonal));
     const std::string a = comparison.geometry_a, b = comparison.geometry_b;
     if (a != "surface" || b != "surface")
-        lines.push_back(fmt::format("of {} and {}; mean and rms of points are over all of them", a, b));
+        lines.push_back(fmt::format("compared: {} and {}; rms and mean of points include every point", a, b));
     return lines;
 }
 
@@ -75,6 +76,12 @@ std::vector<std::string> measured_lines(const Comparison& comparison) {
 std::vector<std::string> lines_below(const Comparison& comparison, const char* section) {
     if (section != std::string_view("geometry") || !comparison.deviation) return {};
     return measured_lines(comparison);
+}
+
+/// The note of a line, which begins with "differs" if the line decides.
+std::string outcome_text(const Difference& d) {
+    if (d.same) return d.note;
+    return d.note.empty() ? "differs" : "differs: " + d.note;
 }
 
 std::ptrdiff_t count_different(const std::vector<const Difference*>& lines) {
@@ -111,8 +118,8 @@ std::string to_text(const Comparison& comparison, const std::string& name_a, con
                             comparison.ignored.contains(section) ? " (ignored)" : "");
         for (const auto* d : lines)
             if (all || is_told(*d))
-                text += fmt::format("    {:<23} {:<15} {:<15} {}{}\n", d->name, text_of(d->a), text_of(d->b),
-                                    d->same ? "" : "differs ", d->note);
+                text += fmt::format("    {:<23} {:<15} {:<15} {}\n", d->name, text_of(d->a), text_of(d->b),
+                                    outcome_text(*d));
         for (const auto& line : lines_below(comparison, section)) text += "    " + line + "\n";
     }
     if (!comparison.hint.empty()) text += fmt::format("  hint: {}\n", comparison.hint);
@@ -197,15 +204,15 @@ std::string to_html(const Comparison& comparison, const std::string& path_a, con
     }
     out += "<div class=\"deviation\">" + figure(picture("first", name_a, pictures.a), name_a);
     out += compared_figure(picture("second", name_b, pictures.b), "first", name_b,
-                           fmt::format("{}; left of the slider {}", name_b, name_a)) +
+                           fmt::format("{}; left of the slider: {}", name_b, name_a)) +
            "</div>\n" + not_drawn_html(pictures.not_drawn) + viewer_section(pictures.view) +
            overview_html(comparison);
     if (pictures.backward || pictures.forward) out += "<h2>Signed distances</h2>\n";
     if (pictures.backward)
-        out += "<h3>Distances of the second from the first</h3>\n" +
+        out += "<h3>Distances of the second file from the first</h3>\n" +
                deviation_html(*pictures.backward, "backward", "the second file");
     if (pictures.forward)
-        out += "<h3>Distances of the first from the second</h3>\n" +
+        out += "<h3>Distances of the first file from the second</h3>\n" +
                deviation_html(*pictures.forward, "forward", "the first file", "the first file");
     for (const char* section : comparison_sections) {
         const std::string rows = difference_rows(comparison, section);

@@ -46,7 +46,7 @@ void collect(const Fields& fields, const std::string& prefix, std::vector<FieldR
         FieldRow row{prefix + field.name + (field.is_list ? "[]" : ""), type_text(field), field.help,
                      field.choices};
         if (!field.null_when.empty()) row.help += fmt::format(" Null when {}.", field.null_when);
-        if (!field.only_when.empty()) row.help += fmt::format(" Only when {}.", field.only_when);
+        if (!field.only_when.empty()) row.help += fmt::format(" Present only when {}.", field.only_when);
         const std::string inner = row.name + ".";
         out.push_back(std::move(row));
         if (field.fields) collect(*field.fields, inner, out);
@@ -81,9 +81,9 @@ std::vector<std::string> rules(const Declaration& declaration) {
 std::string spelling_help(Dimension dimension) {
     switch (dimension) {
     case Dimension::length:
-        return "A length is a number in scene units, has a physical unit (2mm, 0.1in), or is a percentage of "
-               "the diagonal of a bounding box: of the scene that enters the stage (0.5%), of the part "
-               "(0.5% of part), or of the scene as last loaded (0.5% of load).";
+        return "A length is a number in scene units (2), a number with a unit (2mm, 0.1in), or a percentage "
+               "of the diagonal of a bounding box. 0.5% refers to the scene that enters the stage, 0.5% of "
+               "part to the part, and 0.5% of load to the scene as last loaded.";
     case Dimension::angle:
         return "An angle is in degrees (30, 30deg) or radians (0.5rad).";
     case Dimension::ratio:

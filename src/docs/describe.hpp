@@ -6,7 +6,7 @@
 
 namespace facetmill::docs {
 
-/// An option as people read it. Fields of a group follow it, with dotted names.
+/// A row of an option for users. Fields of a group follow it, with dotted names.
 struct OptionRow {
     std::string name;         ///< "iterations", "plane.normal"
     std::string type;         ///< "integer, x >= 1", "one of fast, exact", "length"
@@ -18,7 +18,7 @@ struct OptionRow {
 };
 
 [[nodiscard]] std::vector<OptionRow> rows(const Declaration& declaration);
-/// A field of a result as people read it. Fields of an object or a list follow it.
+/// A row of a field of a result for users. Fields of an object or a list follow it.
 struct FieldRow {
     std::string name; ///< "parts[].before.area"
     std::string type; ///< "number, scene units", "one of faces, edges"
@@ -29,7 +29,7 @@ struct FieldRow {
 [[nodiscard]] std::vector<FieldRow> rows(const Fields& fields);
 /// "at most one of ratio, faces", one per rule.
 [[nodiscard]] std::vector<std::string> rules(const Declaration& declaration);
-/// How the numbers of a dimension are spelled: "A length is ...", or empty.
+/// Explains the spelling of a dimension's numbers: "A length is ...", or empty.
 [[nodiscard]] std::string spelling_help(Dimension dimension);
 /// spelling_help of every dimension that the rows use, once each.
 [[nodiscard]] std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
@@ -41,7 +41,7 @@ struct FieldRow {
 /// The lines of each paragraph joined: help is written as raw strings of short lines.
 [[nodiscard]] std::string joined_lines(std::string_view text);
 
-/// A text as roff shows it: no requests, no escapes, hyphens that can be copied.
+/// Escapes a text for roff: no requests or escapes, and hyphens that can be copied.
 [[nodiscard]] std::string roff(std::string_view text);
 
 } // namespace facetmill::docs

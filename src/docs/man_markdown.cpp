@@ -7,7 +7,7 @@ namespace facetmill::docs {
 
 namespace {
 
-/// Without the escapes of roff: \- and \(dq are characters, \fB and \& are none.
+/// The text without the escapes of roff: \- and \(dq are characters, \fB and \& are none.
 std::string unescaped(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// A manual page as the other pages of the manual are: in Markdown.
+// Converts a manual page to Markdown, like the other pages of the manual.
 
 #include <string>
 #include <string_view>

@@ -11,10 +11,10 @@ namespace {
 
 /// "A warning; --strict=W-UP makes it fail", or "An error; exit code 2 (the command line ...)".
 std::string severity_text(const MessageId& message) {
-    if (message.is_warning()) return fmt::format("A warning; --strict={} makes it fail", message.id);
+    if (message.is_warning()) return fmt::format("A warning. --strict={} turns it into an error", message.id);
     std::vector<std::string> codes;
     for (const auto kind : message.kinds) codes.push_back(to_string(kind));
-    return fmt::format("An error; exit code {}", fmt::join(codes, " or "));
+    return fmt::format("An error with exit code {}", fmt::join(codes, " or "));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The ids of errors and warnings as people read them: `facetmill explain`, its Markdown, and the manual page
+// Describes the ids of errors and warnings: `facetmill explain`, its Markdown, and the manual page
 // facetmill-messages(7). All of it comes from base/message_ids.hpp.
 
 #include "base/json.hpp"
@@ -9,9 +9,9 @@ namespace facetmill::docs {
 
 /// An id as people may type it: "w-units" -> "W-UNITS".
 [[nodiscard]] std::string id_of(std::string text);
-/// One line per id.
+/// A line per id.
 [[nodiscard]] std::string message_list();
-/// The page of one id: its meaning, its exit code, the remedy.
+/// The page of an id: its meaning, its exit code, the remedy.
 [[nodiscard]] std::string message_page(const MessageId& message);
 /// All ids, as one Markdown page.
 [[nodiscard]] std::string messages_markdown();

@@ -20,7 +20,7 @@ Json with_expressions(Json schema);
 
 /// The schema, or an expression instead.
 Json or_expression(Json schema) {
-    if (schema.is_boolean()) return schema; // names a property, no more
+    if (schema.is_boolean()) return schema; // the schema only names a property
     schema = with_expressions(std::move(schema));
     Json described;
     for (const char* annotation : {"description", "default"})
@@ -87,12 +87,12 @@ Json foreach_step() {
 
 Json include_step() {
     return {{"title", "include"},
-            {"description", "The stages of another file, in place of this item."},
+            {"description", "The stages of another file, which replace this item."},
             {"type", "object"},
             {"required", Json::array({"include"})},
             {"properties",
-             {{"include", {{"type", "string"}, {"description", "The file, relative to this one."}}},
-              {"with", {{"type", "object"}, {"description", "Values of its params."}}}}},
+             {{"include", {{"type", "string"}, {"description", "The file, relative to this file."}}},
+              {"with", {{"type", "object"}, {"description", "Values for its params."}}}}},
             {"additionalProperties", false}};
 }
 
@@ -115,19 +115,20 @@ Json param_schema() {
     const Json types = {{"enum", all}};
     const Json limit = {{"type", Json::array({"number", "string"})},
                         {"description", "A limit of the value."}};
-    const Json whole = {{"title", "param"},
-                        {"type", "object"},
-                        {"required", Json::array({"type"})},
-                        {"properties",
-                         {{"type", types},
-                          {"of", {{"enum", single}, {"description", "What each value of a list is."}}},
-                          {"default", {{"description", "The value when none is given."}}},
-                          {"help", {{"type", "string"}, {"description", "What the parameter is for."}}},
-                          {"required", {{"type", "boolean"}, {"description", "Whether it must be given."}}},
-                          {"min", limit},
-                          {"max", limit},
-                          {"choices", {{"type", "array"}, {"description", "The values of a choice."}}}}},
-                        {"additionalProperties", false}};
+    const Json whole = {
+        {"title", "param"},
+        {"type", "object"},
+        {"required", Json::array({"type"})},
+        {"properties",
+         {{"type", types},
+          {"of", {{"enum", single}, {"description", "The type of the values in the list."}}},
+          {"default", {{"description", "The default value."}}},
+          {"help", {{"type", "string"}, {"description", "The purpose of the parameter."}}},
+          {"required", {{"type", "boolean"}, {"description", "Whether you must give a value."}}},
+          {"min", limit},
+          {"max", limit},
+          {"choices", {{"type", "array"}, {"description", "The allowed values of a choice."}}}}},
+        {"additionalProperties", false}};
     return {{"anyOf", Json::array({types, whole})}};
 }
 
@@ -137,7 +138,7 @@ Json definitions() {
     all["param"] = param_schema();
     all["step"] = step_forms();
     all["stages"] = {{"title", "stages"},
-                     {"description", "The steps, one after the other."},
+                     {"description", "The steps, in order."},
                      {"type", "array"},
                      {"items", ref("step")}};
     return all;
@@ -155,17 +156,18 @@ Json pipeline_schema() {
         {"required", Json::array({"facetmill", "stages"})},
         {"properties",
          {{"facetmill", {{"const", 1}, {"description", "The version of the pipeline format."}}},
-          {"requires", {{"type", "string"}, {"description", "The releases that may run it: \">=0.3,<2\"."}}},
-          {"about", {{"type", "string"}, {"description", "What the pipeline is for, in a sentence."}}},
+          {"requires",
+           {{"type", "string"}, {"description", "The releases of facetmill that may run it: \">=0.3,<2\"."}}},
+          {"about", {{"type", "string"}, {"description", "The purpose of the pipeline, in one sentence."}}},
           {"params",
            {{"type", "object"},
-            {"description",
-             "What -D sets: names and types, or maps with type, default, help, min, max, choices."},
+            {"description", "The params that -D sets. Give a name and a type, or a map with type, default, "
+                            "help, min, max and choices."},
             {"additionalProperties", ref("param")}}},
           {"stages", ref("stages")},
           {"allow",
            {{"anyOf", one_or_more},
-            {"description", "The ids of warnings that are not printed and do not fail under --strict."}}},
+            {"description", "The ids of warnings to hide. They do not fail under --strict."}}},
           {"report",
            {{"anyOf", one_or_more},
             {"description", std::string("Reports: ") + report::report_suffixes + "."}}}}},

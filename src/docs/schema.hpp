@@ -1,6 +1,6 @@
 #pragma once
-// JSON Schemas (2020-12) that come from the declarations of the stages: of the pipeline language, for editors
-// and for checking files elsewhere, and of the report.
+// JSON Schemas (2020-12) generated from the declarations of the stages: for the pipeline language (for
+// editors and other checkers) and for the report.
 
 #include "base/json.hpp"
 
@@ -12,7 +12,7 @@ namespace facetmill::docs {
 /// quantities and names.
 [[nodiscard]] Json pipeline_schema();
 
-/// The same schema in which each form has one type at most, as strict validators want it: {"type": ["a",
+/// The same schema in which each form has at most one type, as strict validators require: {"type": ["a",
 /// "b"]} is written with anyOf.
 [[nodiscard]] Json with_single_types(Json schema);
 

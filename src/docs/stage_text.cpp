@@ -50,13 +50,13 @@ std::string details_of(const StageInfo& stage) {
     };
     if (stage.crossing_faces == CrossingFacePolicy::fill)
         add(stage.chooses_crossing_faces
-                ? "Where faces are cut or moved, planar ones that intersect themselves become triangles "
-                  "first, as in triangulate; the others are named (W-FANS)."
-                : "Planar faces that intersect themselves become triangles first, as in triangulate; the "
-                  "others are named (W-FANS).");
+                ? "Before faces are cut or moved, planar faces that intersect themselves become triangles, "
+                  "as in triangulate. W-FANS lists other faces that intersect themselves."
+                : "Planar faces that intersect themselves become triangles first, as in triangulate. W-FANS "
+                  "lists other faces that intersect themselves.");
     if (stage.crossing_faces == CrossingFacePolicy::name)
-        add("Planar faces that intersect themselves count for what triangulate would make of them; the "
-            "others are named (W-FANS).");
+        add("Planar faces that intersect themselves count as the triangles that triangulate makes of them. "
+            "W-FANS lists other faces that intersect themselves.");
     return text;
 }
 

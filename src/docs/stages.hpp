@@ -1,6 +1,6 @@
 #pragma once
-// The stages as people read them: `facetmill stages`, its Markdown, and the manual page facetmill-stages(7).
-// All of it comes from the declarations.
+// Describes the stages: `facetmill stages`, its Markdown, and the manual page facetmill-stages(7). All of it
+// comes from the declarations.
 
 #include "stage/stage.hpp"
 
@@ -8,9 +8,9 @@ namespace facetmill::docs {
 
 /// The paragraphs of a stage, including its treatment of self-intersecting faces.
 [[nodiscard]] std::string details_of(const StageInfo& stage);
-/// One line per stage.
+/// A line per stage.
 [[nodiscard]] std::string stage_list();
-/// The page of one stage: its purpose, options, rules, spelling of quantities and examples.
+/// The page of a stage: its purpose, options, rules, spelling of quantities and examples.
 [[nodiscard]] std::string stage_page(const StageInfo& stage);
 /// All stages, as one Markdown page.
 [[nodiscard]] std::string stages_markdown();

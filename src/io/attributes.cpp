@@ -212,6 +212,45 @@ void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log) {
                             file_mark(file), ""});
 }
 
+// --- colours of faces
+
+bool has_colours_of_faces_only(const Mesh& mesh) {
+    return mesh.find("COLOR_0", Domain::face) && !mesh.find("COLOR_0", Domain::wedge) &&
+           mesh.face_count() > 0;
+}
+
+void move_colours_to_wedges(Mesh& mesh) {
+    if (!has_colours_of_faces_only(mesh)) return;
+    Attribute of_faces = *mesh.find("COLOR_0", Domain::face);
+    mesh.drop("COLOR_0", Domain::face);
+    const auto n = static_cast<std::size_t>(of_faces.components);
+    std::map<std::vector<double>, Index> first_of; // the first face of each colour
+    std::vector<std::uint64_t> keys(mesh.corner_count());
+    std::vector<double> colour(n);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        for (std::size_t c = 0; c < n; ++c) colour[c] = of_faces.value(f, static_cast<int>(c));
+        const Index first = first_of.try_emplace(colour, f).first->second;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) keys[c] = first;
+    }
+    const std::size_t before = mesh.wedge_count();
+    Wedges wedges = make_wedges(before, std::move(mesh.corners), keys); // of wedges instead of vertices
+    mesh.corners = std::move(wedges.corners);
+    if (!wedges.wedge_vertex.empty()) {
+        for (Attribute& a : mesh.attributes)
+            if (a.domain == Domain::wedge) extend_to_wedges(a, wedges.wedge_vertex, before);
+        for (Index& w : wedges.wedge_vertex) w = mesh.vertex_of_wedge(w);
+        mesh.wedge_vertex = std::move(wedges.wedge_vertex);
+    }
+    std::vector<Index> face(wedges.keys.size(), 0); // wedges that no face uses get any colour
+    for (std::size_t w = 0; w < face.size(); ++w)
+        if (wedges.keys[w] != no_key) face[w] = static_cast<Index>(wedges.keys[w]);
+    Attribute of_wedges = selected(of_faces, face);
+    of_wedges.domain = Domain::wedge;
+    mesh.attributes.push_back(std::move(of_wedges));
+    for (Primitive& p : mesh.primitives)
+        if (!p.attributes.empty()) p.attributes.emplace_back("COLOR_0");
+}
+
 // --- wedges
 
 Wedges make_wedges(std::size_t vertices, std::vector<Index> corner_vertex,

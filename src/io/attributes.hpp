@@ -12,9 +12,12 @@
 
 namespace facetmill::io {
 
-/// The role that glTF defines for the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n), if
-/// components and type match. Otherwise integers of 16 bits and more are identifiers (Role::index) and other
-/// numbers are generic.
+/// The face attribute with the attribute bytes of an STL that are no colours.
+inline constexpr const char* stl_attribute = "attribute";
+
+/// The role that glTF gives the name (NORMAL, TANGENT, TEXCOORD_n, COLOR_n, JOINTS_n, WEIGHTS_n), if
+/// components and type fit it. Otherwise integers of 16 bits and more are identifiers (Role::index) and
+/// other numbers are generic.
 [[nodiscard]] Role role_of(const std::string& name, int components, const AttributeData& data);
 
 /// Adds the attribute under a unique name: "quality_2" if the domain already has a "quality". Names that the
@@ -46,6 +49,12 @@ void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagno
 
 /// Drops faces of fewer than three corners (face attributes follow) and warns (W-FACES).
 void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log);
+
+/// Whether faces have colours (COLOR_0), and wedges have none.
+bool has_colours_of_faces_only(const Mesh& mesh);
+/// Moves them to wedges, for a format without attributes of faces. Wedges between faces of different colours
+/// split. Does nothing if there are none.
+void move_colours_to_wedges(Mesh& mesh);
 
 inline constexpr std::uint64_t no_key = UINT64_MAX;
 

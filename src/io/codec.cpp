@@ -5,6 +5,7 @@
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
+#include "io/flatten.hpp"
 #include "io/not_finite.hpp"
 #include "io/other_formats.hpp"
 #include "io/packing.hpp"
@@ -121,7 +122,7 @@ void warn_of_size(const Part& part, ReadLog& log) {
                      "range of numbers (null or 0), and stages may lose precision",
                      part.name, length),
          {},
-         "transform: {scale: ...} brings it near 1",
+         hint_for_size(size),
          false});
 }
 
@@ -200,7 +201,9 @@ const std::vector<Capability>& capabilities() {
         {"transforms", &Capabilities::transforms},
         {"skins", &Capabilities::skins},
         {"points", &Capabilities::points},
+        {"points_and_faces", &Capabilities::points_and_faces},
         {"lines", &Capabilities::lines},
+        {"documents", &Capabilities::documents},
         {"text", &Capabilities::text},
         {"big_endian", &Capabilities::big_endian},
         {"full_precision", &Capabilities::full_precision},
@@ -276,7 +279,7 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
         if (lines.name.empty()) lines.name = stem_of(input);
         any |= !lines.segments.empty();
     }
-    if (!any)
+    if (!any && !(codec.can.documents && scene.parts.empty()))
         throw Error(ErrorKind::malformed, "E-EMPTY",
                     fmt::format("'{}' has no mesh: not one vertex", input.name()),
                     "export it again, with the meshes themselves: programs leave out what is hidden or not "

@@ -85,7 +85,7 @@ struct MeshoptSettings {
 /// A tree of tiles, from few triangles for the whole to all triangles.
 struct TileSettings {
     std::size_t faces = 20000; ///< maximum per tile, except where borders need more
-    bool implicit = false;     ///< implicit tiling, else explicit
+    bool implicit = false;     ///< implicit tiling, otherwise explicit
     bool given_bits = false;   ///< positions must not get more bits than Draco or quantize ask for
 };
 
@@ -190,22 +190,24 @@ struct Capabilities {
     bool transforms =
         false; ///< parts keep their transforms and names, otherwise all parts are in world space
     bool skins = false;
-    bool points = false;         ///< scenes without faces: point clouds
-    bool lines = false;          ///< parts of lines
-    bool text = false;           ///< WriteSettings::ascii
-    bool big_endian = false;     ///< WriteSettings::big_endian
-    bool full_precision = false; ///< WriteSettings::double_positions
-    bool mesh_manifold = false;  ///< WriteSettings::mesh_manifold
-    bool lods = false;           ///< WriteSettings::lods
-    bool textures = false;       ///< WriteSettings::textures
-    bool quantize = false;       ///< WriteSettings::quantize
-    bool meshopt = false;        ///< WriteSettings::meshopt
-    bool order = false;          ///< WriteSettings::order
-    bool tiles = false;          ///< WriteSettings::tiles
-    Draco draco = Draco::never;  ///< WriteSettings::draco
-    std::string attributes{};    ///< the attributes that the format holds, as text
-    std::string companion{};     ///< the suffix of a required neighbour: ".bin"
-    std::string library{};       ///< the suffix of the neighbour with the materials: ".mtl"
+    bool points = false;           ///< scenes without faces: point clouds
+    bool points_and_faces = false; ///< parts of points beside parts with faces
+    bool lines = false;            ///< parts of lines
+    bool documents = false;        ///< scenes without meshes: nodes, cameras, animations
+    bool text = false;             ///< WriteSettings::ascii
+    bool big_endian = false;       ///< WriteSettings::big_endian
+    bool full_precision = false;   ///< WriteSettings::double_positions
+    bool mesh_manifold = false;    ///< WriteSettings::mesh_manifold
+    bool lods = false;             ///< WriteSettings::lods
+    bool textures = false;         ///< WriteSettings::textures
+    bool quantize = false;         ///< WriteSettings::quantize
+    bool meshopt = false;          ///< WriteSettings::meshopt
+    bool order = false;            ///< WriteSettings::order
+    bool tiles = false;            ///< WriteSettings::tiles
+    Draco draco = Draco::never;    ///< WriteSettings::draco
+    std::string attributes{};      ///< the attributes that it holds, as text
+    std::string companion{};       ///< the suffix of a required neighbour: ".bin"
+    std::string library{};         ///< the suffix of the neighbour with the materials: ".mtl"
     bool copies_images =
         false; ///< image files stay separate files next to it, unless Textures overrides this
 };

@@ -1,6 +1,7 @@
 #include "io/convert.hpp"
 
 #include "base/text/unique_names.hpp"
+#include "io/gltf/gltf.hpp"
 
 #include <utility>
 
@@ -44,6 +45,11 @@ Conversion convert(Scene& scene, const Convention& target) {
     for (auto& part : scene.parts) {
         part.transform = done.transform * part.transform;
     }
+    std::vector<LengthGrowth> lengths;
+    lengths.reserve(scene.parts.size());
+    for (const Part& part : scene.parts) lengths.push_back({part.skinned ? done.factor : 1, done.factor});
+    scale_material_lengths(scene, lengths);
+    move_cameras_and_lights(scene, std::vector<bool>(scene.parts.size(), true), done.transform);
     return done;
 }
 

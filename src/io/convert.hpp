@@ -22,7 +22,8 @@ struct Conversion {
 /// A quarter turn about x that turns the axis `from` to `to`; identity if they are the same.
 [[nodiscard]] Transform turn_up(UpAxis from, UpAxis to);
 
-/// Converts the scene by changing the transforms of its parts; meshes stay unchanged. An unknown unit or
+/// Converts the scene by changing the transforms of its parts, and of cameras and lights. Meshes stay
+/// unchanged. An unknown unit or
 /// axis in the target keeps the scene's. Skinned parts are moved in bind pose.
 Conversion convert(Scene& scene, const Convention& target);
 

@@ -1,7 +1,9 @@
 #include "io/flatten.hpp"
 
 #include "base/json.hpp"
+#include "base/ordered_set.hpp"
 #include "base/text/words.hpp"
+#include "io/attributes.hpp"
 #include "mesh/primitives_in_use.hpp"
 
 #include <algorithm>
@@ -14,6 +16,15 @@
 
 namespace facetmill::io {
 
+std::string hint_for_size(double size) {
+    const std::string digits = fmt::format("{:.0e}", size); // "2e-120"
+    const bool is_large = digits.find("e-") == digits.npos;
+    const std::size_t sign = digits.find('e');
+    const std::string power = sign == digits.npos ? "150" : digits.substr(sign + 2);
+    return fmt::format("bring the scene near 1 in size: transform: {{scale: 1e{}{}}}", is_large ? "-" : "",
+                       power);
+}
+
 void require_floats(const Mesh& mesh, const std::string& what) {
     constexpr double least = 1.1754943508222875e-38,
                      most = 3.4028234663852886e38; // the range of normal float32 numbers
@@ -24,7 +35,7 @@ void require_floats(const Mesh& mesh, const std::string& what) {
     if (farthest == 0 || (farthest >= least && farthest <= most)) return;
     throw Error(ErrorKind::stage, "E-RANGE",
                 fmt::format("{} has positions that float32 cannot hold, up to {}", what, farthest),
-                "bring the scene near 1 in size first: transform: {scale: ...}");
+                hint_for_size(farthest));
 }
 
 WorldMesh::WorldMesh(const Part& part) {
@@ -265,17 +276,36 @@ void warn_of_names(Written& written, const Scene& scene, const char* format, boo
 
 bool is_missed(const Attribute& attribute) {
     return attribute.role == Role::uv || attribute.role == Role::colour ||
-           attribute.role == Role::morph_vector ||
-           (attribute.role == Role::generic && attribute.domain != Domain::face);
+           attribute.role == Role::morph_vector || attribute.role == Role::generic ||
+           attribute.name == stl_attribute;
 }
 
-void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format) {
+void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format,
+                        const char* hint) {
     if (!names.empty())
         written.warnings.push_back({Severity::warning,
                                     "W-ATTRIBUTE",
                                     fmt::format("{} has no place for attributes: {}", format, some_of(names)),
                                     {},
-                                    "glTF keeps them: write .glb"});
+                                    hint});
+}
+
+void warn_of_dropped(Written& written, const Scene& scene, const char* format, bool uvs) {
+    OrderedSet<std::string> names;
+    bool faces = false;
+    for (const AttributeChange& change : written.changes) {
+        if (change.kind != AttributeChange::Kind::dropped) continue;
+        for (const Part& part : scene.parts) {
+            const Attribute* a = part.mesh.find(change.attribute, change.domain);
+            if (!a || !is_missed(*a) || (a->role == Role::uv && !uvs)) continue;
+            names.add(a->domain == Domain::face ? a->name + " of faces" : a->name);
+            faces |= a->domain == Domain::face;
+            break;
+        }
+    }
+    warn_of_attributes(written, names.all(), format,
+                       faces || std::string_view(format) == "glTF" ? "PLY keeps them: write .ply"
+                                                                   : "glTF keeps them: write .glb");
 }
 
 void dropped(Written& written, const Attribute& attribute, std::string why) {

@@ -9,6 +9,9 @@
 
 namespace facetmill::io {
 
+/// A hint for a scene of this size that is too large or too small for numbers: the scale to type.
+[[nodiscard]] std::string hint_for_size(double size);
+
 /// The part's mesh in world space; copied only if the transform is not the identity.
 class WorldMesh {
   public:
@@ -60,7 +63,11 @@ void warn_of_names(Written& written, const Scene& scene, const char* format, boo
 /// data, W-ANIMATION covers skins, and readers or stages make group numbers, so none of these are missed.
 bool is_missed(const Attribute& attribute);
 /// Warns (W-ATTRIBUTE) of attributes by these names, if any.
-void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format);
+void warn_of_attributes(Written& written, const std::vector<std::string>& names, const char* format,
+                        const char* hint = "glTF keeps them: write .glb");
+/// The same, for missed attributes that the list of changes has as dropped. uvs: also texture coordinates,
+/// which are useless in a format without textures.
+void warn_of_dropped(Written& written, const Scene& scene, const char* format, bool uvs = true);
 
 /// A name that fits on a line: control characters become blanks.
 [[nodiscard]] std::string one_line(std::string name);

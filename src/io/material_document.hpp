@@ -22,9 +22,12 @@ class MaterialDocument {
     /// Adds a glTF material and lists the extensions that it uses. Returns the material for a scene that has
     /// `documents` documents so far.
     Material add(Json material, std::size_t documents);
+    /// The document's asset, for a copyright and extras.
+    Json& asset() { return json_["asset"]; }
     /// The images that finish() would name as files.
     std::vector<NamedImage> images() const;
-    bool empty() const { return json_["materials"].empty(); }
+    /// Whether it has nothing to keep.
+    bool empty() const { return json_["materials"].empty() && json_["asset"].size() == 1; }
     /// The document, to be appended to the scene's documents.
     std::shared_ptr<const Document> finish();
 

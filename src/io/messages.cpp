@@ -70,7 +70,8 @@ const RegisterMessages io_messages{
      "Write glTF to keep them. OBJ keeps materials of lines, and OBJ and 3MF keep materials of faces."},
     {"W-MERGED",
      "When several glTF documents are written to one file, only their meshes and materials are kept.",
-     "Write a separate file for each if you need animations or cameras."},
+     "Load the file that the message names by itself, and write it to a file of its own, if you need its "
+     "animations or cameras."},
     {"W-NAME",
      "The name of a part or material has control characters, such as a line end, that the format does not "
      "allow in names. They are replaced by blanks or the sign for unknown characters.",
@@ -89,7 +90,7 @@ const RegisterMessages io_messages{
     {"W-PARTS", "Several parts become one mesh without their names, because the format holds one mesh.",
      "Write glTF, OBJ or 3MF to keep them. `foreach: {part: \"*\"}` writes a file for each."},
     {"W-SIZE", "A part is so large or so small that products of its coordinates may overflow or underflow.",
-     "Use `transform: {scale: ...}` to bring its size near 1."},
+     "Bring its size near 1 with `transform: {scale: ...}`; the message has the number to type."},
     {"W-SKIPPED", "facetmill skips data in a file that a mesh cannot represent.",
      "Ignore this warning if you do not need the data that the message names."},
     {"W-TEXTURES",
@@ -99,9 +100,9 @@ const RegisterMessages io_messages{
     {"W-UNITS",
      "A scene without a unit meets a scene, format or option with a unit, and facetmill uses the numbers "
      "unchanged. Or a comment of a file states an unknown unit.",
-     "Give the unit of the file: `load: {unit: mm}`."},
+     "Give the unit of the file: `load: {unit: mm}`, or `-D unit=mm` of a built-in pipeline."},
     {"W-UP", "A scene without an up axis gets one, without being rotated.",
-     "Give the up axis: `load: {up: z}`."},
+     "Give the up axis: `load: {up: z}`, or `-D up=z` of a built-in pipeline."},
 };
 
 } // namespace facetmill

@@ -387,7 +387,37 @@ Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings
     return {back.tolerance, std::min(in_order, back.tolerance)};
 }
 
-/// Whether a file should keep the property: a truth, or a count of defects.
+double distance_of(const Transform& a, const Transform& b) {
+    double sum = 0;
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 4; ++c) sum += (a.m[r][c] - b.m[r][c]) * (a.m[r][c] - b.m[r][c]);
+    return sum;
+}
+
+/// Rounding may make another one of nearly equal instances the largest. Parts with instances then move to the
+/// instance of the scene that was written.
+void stand_at_written_instances(Scene& back, const Scene& scene) {
+    const bool same = back.parts.size() == scene.parts.size();
+    std::vector<PartView> views; // found only when there are instances
+    std::vector<double> nearest(back.parts.size(), HUGE_VAL);
+    std::vector<Transform> places(back.parts.size());
+    const auto compare = [&](std::size_t part, const Transform& place, std::size_t with) {
+        const double d = distance_of(place, scene.parts[with].transform);
+        if (!(d < nearest[part])) return;
+        nearest[part] = d;
+        places[part] = place;
+    };
+    for_each_place_of_instances(back, [&](std::size_t part, const Transform& place, double) {
+        if (views.empty()) views = part_views(scene);
+        if (same && views[part].instanced) return compare(part, place, part);
+        for (std::size_t i = 0; i < views.size(); ++i)
+            if (views[i].instanced) compare(part, place, i);
+    });
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+        if (nearest[i] < HUGE_VAL) back.parts[i].transform = places[i];
+}
+
+/// A property that a file should keep: a truth, or a count of defects.
 bool should_stay(const Property& property) { return property.soundness != Soundness::none; }
 
 /// Whether every truth holds and no defects are counted, so that no loss is possible.
@@ -483,6 +513,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
     steps.next();
+    if (codec.can.transforms) stand_at_written_instances(back.scene, scene);
     const Tolerances tolerances = set_tolerance(back, scene, settings, codec.can.transforms);
     const Flat wanted(scene, dropped_faces == 0), found(back.scene);
     back.position_error =

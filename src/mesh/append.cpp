@@ -19,8 +19,8 @@ Attribute zeros(const Attribute& like, std::size_t n) {
 }
 
 /// Makes the attribute for a mesh that lacks it, with neutral values. Colours are white and opaque, normals
-/// are the faces' normals, tangents have length 1. Values without a neutral number are nan where the type
-/// allows it; all else is zero.
+/// are the faces' normals, tangents have length 1. Values without a neutral number are NaN if the type
+/// allows it; all other values are zero.
 Attribute stand_in(const Attribute& like, const Mesh& mesh) {
     Attribute a = zeros(like, mesh.count(like.domain));
     if (a.name == "NORMAL" && a.domain == Domain::wedge && a.components == 3) {
@@ -53,7 +53,7 @@ bool same_layout(const Attribute& a, const Attribute& b) {
     return a.data.index() == b.data.index() && a.components == b.components && a.normalised == b.normalised;
 }
 
-/// The attribute as doubles with that many components: the common layout when two differ.
+/// The attribute as doubles with this many components: the common layout if two attributes differ.
 Attribute widened(const Attribute& a, int components) {
     Attribute wide{a.name, a.domain, a.role, components, false, std::vector<double>{}};
     wide.resize(a.size());
@@ -126,7 +126,7 @@ Attribute& primitive_indices_for_writing(Mesh& mesh) {
                                                   std::vector<std::uint32_t>(mesh.face_count(), 0)});
 }
 
-/// The two tables joined, equal entries once; and where b's entries are in it.
+/// Both tables joined, with equal entries once, and the new indices of b's entries.
 struct JoinedPrimitives {
     std::vector<Primitive> table;
     std::vector<Index> of_b;
@@ -166,7 +166,7 @@ void append_arrays(Mesh& a, const Mesh& b) {
     a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
 }
 
-/// The primitive of each line, of both; empty where all are of the first.
+/// The primitive of each line of both meshes; empty if all use the first primitive.
 std::vector<Index> joined_line_primitives(const Mesh& a, const Mesh& b, const std::vector<Index>& of_b) {
     std::vector<Index> all;
     for (std::size_t l = 0; l < a.line_count(); ++l) all.push_back(a.primitive_of_line(l));
@@ -199,7 +199,7 @@ void append(Mesh& a, const Mesh& b) {
     } else {
         append_attributes(a, b);
         append_arrays(a, b);
-        a.drop(primitive_attribute, Domain::face); // tables of several equal entries are one now
+        a.drop(primitive_attribute, Domain::face); // a table of several equal entries now has a single entry
     }
     a.primitives = one_plain ? std::vector<Primitive>{} : std::move(joined.table);
 }

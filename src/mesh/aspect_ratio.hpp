@@ -1,5 +1,5 @@
 #pragma once
-// How far a triangle is from one of equal sides.
+// Measures how far a triangle is from equilateral.
 
 #include "base/math/vec.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// aspect_ratio of a triangle with edges of these lengths.
+/// The aspect_ratio of a triangle with these edge lengths and area.
 [[nodiscard]] inline double aspect_ratio(double x, double y, double z, double area) {
     return area > 0 ? std::max({x, y, z}) * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Named, typed arrays that go with the vertices, wedges or faces of a mesh.
+// Named, typed arrays for the vertices, wedges or faces of a mesh.
 
 #include <cmath>
 #include <cstddef>
@@ -22,20 +22,21 @@ enum class Role {
     tangent,      ///< unit vector and a sign, 4 components; the first parent gives the sign
     uv,           ///< 2 components
     colour,       ///< 3 or 4 components
-    joints,       ///< 4 integers, pairs with the weights of the same set
+    joints,       ///< 4 integers; belongs to the weights of the same set
     weights,      ///< 4 numbers summing to one over all sets
     morph_vector, ///< a displacement (morph target of positions, normals or tangents), mixed linearly
-    index,        ///< an identifier: never mixed, the first parent's is taken (primitive, group, cut_id)
+    index, ///< an identifier (primitive, group, cut_id); never mixed, because the first parent gives the
+           ///< value
 };
 
-/// One array per component type; the array holds count * components numbers, element by element.
+/// An array of one component type, with count * components numbers, element by element.
 using AttributeData =
     std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint8_t>, std::vector<std::int8_t>,
                  std::vector<std::uint16_t>, std::vector<std::int16_t>, std::vector<std::uint32_t>,
                  std::vector<std::int32_t>>;
 
-/// An attribute of a mesh. Names follow glTF where glTF has one (NORMAL, TEXCOORD_0, COLOR_0, JOINTS_0,
-/// WEIGHTS_0, TANGENT), and are the file's own name (quality, confidence) elsewhere.
+/// An attribute of a mesh. Names follow glTF if it defines one (NORMAL, TEXCOORD_0, COLOR_0, JOINTS_0,
+/// WEIGHTS_0, TANGENT). Otherwise they are the file's own (quality, confidence).
 struct Attribute {
     std::string name;
     Domain domain = Domain::wedge;
@@ -44,22 +45,22 @@ struct Attribute {
     bool normalised = false; ///< integers are fractions of their type's maximum, as in glTF
     AttributeData data;
 
-    /// Elements, that is numbers / components.
+    /// The number of elements: numbers / components.
     std::size_t size() const;
-    /// "float32", "uint8", ...
+    /// The type as text: "float32", "uint8" ...
     const char* type() const;
-    /// Component c of element i as a number: fractions when normalised.
+    /// Component c of element i as a number; a fraction if normalised.
     double value(std::size_t i, int c) const;
-    /// Sets it; integers are rounded to nearest, ties up, and kept in their type's range.
+    /// Sets component c of element i. Integers are rounded to nearest, ties up, and clamped to their type's
+    /// range.
     void set_value(std::size_t i, int c, double x);
     /// Element i becomes a copy of element old[i].
     void select(std::span<const std::uint32_t> old);
-    /// Makes it count elements; new ones are zero.
+    /// Changes the number of elements. New elements are zero.
     void resize(std::size_t count);
 };
 
-/// x as a component of type T: integers rounded to nearest, ties up, and kept in range; not a number becomes
-/// 0.
+/// x as a component of type T. Integers are rounded to nearest, ties up, and clamped. NaN becomes 0.
 template <class T>
 T as_component(double x) {
     if constexpr (std::is_integral_v<T>) {
@@ -73,7 +74,7 @@ T as_component(double x) {
     }
 }
 
-/// The name of a domain as users see it.
+/// The name of a domain for users.
 [[nodiscard]] const char* to_string(Domain domain);
 
 } // namespace facetmill

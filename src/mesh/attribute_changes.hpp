@@ -14,25 +14,25 @@ struct AttributeChange {
     std::string attribute;
     Domain domain = Domain::wedge;
     Kind kind = Kind::kept;
-    std::string why; ///< empty for kept
+    std::string why; ///< empty for kept attributes
 
     bool operator==(const AttributeChange&) const = default;
 };
 [[nodiscard]] const char* to_string(AttributeChange::Kind kind);
 using AttributeChanges = std::vector<AttributeChange>;
 
-/// All of the attributes, kept.
+/// Marks all of the attributes as kept.
 [[nodiscard]] AttributeChanges kept_changes(const std::vector<Attribute>& attributes);
 
-/// Adds the changes of a parallel or later operation. For an attribute in both lists, `more` wins unless it
-/// is kept. The order is by first mention.
+/// Adds the changes of a parallel or later operation. For an attribute in both lists, the entry in `more` is
+/// used unless it is kept. The order is by first occurrence.
 void merge_changes(AttributeChanges& all, const AttributeChanges& more);
 
 /// The changes of two consecutive steps: the attributes of the second, in its order. Attributes that the
 /// second kept have their change in the first.
 [[nodiscard]] AttributeChanges changes_in_sequence(const AttributeChanges& first, AttributeChanges second);
 
-/// Removes the entries of the attribute: an attribute for internal use does not concern users.
+/// Removes the entries of an attribute for internal use.
 void forget_change(AttributeChanges& changes, std::string_view attribute);
 
 } // namespace facetmill

@@ -1,5 +1,5 @@
 #pragma once
-// Items of the faces of a mesh, grouped by vertex: the basis of edge tables and of vertex neighbourhoods.
+// Groups items of the faces of a mesh by vertex, for edge tables and vertex neighbourhoods.
 
 #include "mesh/mesh.hpp"
 #include "parallel/parallel.hpp"
@@ -10,26 +10,25 @@
 
 namespace facetmill {
 
-/// Items in buckets by the high bits of a vertex: one scattering pass, after which each bucket (some thousand
-/// items) is sorted in cache. That is a radix sort whose first digit is wide and whose others never leave the
-/// cache.
+/// Items in buckets by the high bits of a vertex. After a single scattering pass, each bucket (a few
+/// thousand items) is sorted in the cache. This is a radix sort with a wide first digit.
 template <class Item>
 struct Buckets {
-    int shift = 0;                  ///< bucket of vertex v: v >> shift
+    int shift = 0;                  ///< the bucket of vertex v is v >> shift
     std::vector<Item> items;        ///< bucket by bucket, in the order of their faces
-    std::vector<std::size_t> begin; ///< [buckets + 1] into items
+    std::vector<std::size_t> begin; ///< [buckets + 1] offsets into items
     std::size_t count() const { return begin.size() - 1; }
-    /// How many buckets one thread takes at a time: of a mesh of few items all, since another thread would
-    /// take longer to come.
+    /// The number of buckets that a thread takes at a time. For few items it is all buckets, because
+    /// starting another thread would take longer.
     std::size_t at_once() const {
-        constexpr std::size_t least = 16, few = 1 << 13; // items
+        constexpr std::size_t least = 16, few = 1 << 13; // numbers of items
         return std::max(least, count() * few / std::max<std::size_t>(1, items.size()));
     }
     std::span<const Item> of(std::size_t b) const {
         return {items.data() + begin[b], items.data() + begin[b + 1]};
     }
-    /// The vertices of bucket b: [first_vertex(b), first_vertex(b + 1)), the last cut at the number of
-    /// vertices.
+    /// Bucket b has the vertices from first_vertex(b) to before first_vertex(b + 1), limited to the number
+    /// of vertices.
     std::size_t first_vertex(std::size_t b) const { return b << shift; }
 };
 
@@ -42,7 +41,7 @@ struct Buckets {
     return vertices == 0 ? 0 : ((vertices - 1) >> shift_of_buckets(vertices)) + 1;
 }
 
-/// visit(f, emit) calls emit(vertex, item) for each contribution of face f.
+/// Fills the buckets. visit(f, emit) must call emit(vertex, item) for each contribution of face f.
 template <class Item, class Visit>
 [[nodiscard]] Buckets<Item> fill_buckets(std::size_t faces, std::size_t vertices, Visit&& visit) {
     constexpr std::size_t chunk = std::size_t{1} << 15;

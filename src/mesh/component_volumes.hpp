@@ -1,5 +1,5 @@
 #pragma once
-// On which side of each component of a surface its inside is.
+// Signed volumes of the components of a surface, which show where the inside is.
 
 #include "mesh/topology.hpp"
 #include "parallel/parallel.hpp"
@@ -7,8 +7,8 @@
 namespace facetmill {
 
 /// Six times the signed volume of each component, relative to its first corner to keep precision far from
-/// the origin; negative where the faces face inwards. Exact up to rounding for a closed component; for an
-/// open component it depends on that corner. place(corner) returns the position of a corner.
+/// the origin; negative if the faces face inwards. Exact up to rounding for a closed component; for an open
+/// component it depends on that corner. place(corner) returns the position of a corner.
 template <class Place>
 [[nodiscard]] std::vector<double> six_volumes(const Mesh& mesh, const Components& components, Place&& place) {
     std::vector<double> volumes(components.count, 0);
@@ -20,7 +20,7 @@ template <class Place>
         const Vec3 o = place(first[component]);
         return dot(place(a) - o, cross(place(b) - o, place(c) - o));
     };
-    if (mesh.all_triangles()) { // computed by all threads, and added up in order as below
+    if (mesh.all_triangles()) { // all threads compute the terms; they are added in order, as below
         std::vector<double> of_face(mesh.face_count());
         parallel_for(of_face.size(), [&](std::size_t f) {
             const auto c = static_cast<Index>(3 * f);

@@ -33,7 +33,7 @@ void CutMemory::add(const Plane& plane, std::vector<Vec3> points) {
     add_to(static_cast<std::size_t>(known - entries.data()), std::move(points));
 }
 
-/// Sides are measured against the plane as it was written first.
+/// Sides are measured against the first notation of the plane.
 void CutMemory::add_to(std::size_t entry, std::vector<Vec3> points) {
     Entry& e = entries[entry];
     std::erase_if(points, [&](const Vec3& p) {
@@ -52,7 +52,7 @@ void CutMemory::add_all(std::vector<Entry> more) {
     for (const Entry& e : entries) planes.push_back(e.plane);
     for (const Entry& e : more) planes.push_back(e.plane);
     const auto first = first_same_planes(planes);
-    std::vector<std::size_t> place(planes.size()); // of the entry for each plane that is a first
+    std::vector<std::size_t> place(planes.size()); // entry of each plane that is the first of its kind
     const std::size_t old = entries.size();
     for (std::size_t i = 0; i < planes.size(); ++i) {
         if (first[i] == i) place[i] = i < old ? i : entries.size();
@@ -75,7 +75,7 @@ bool passes(const Plane& plane, const Box& box) {
     return !(std::fabs(side(plane, middle)) > reach + 1e-9 * size);
 }
 
-/// Finds the points on planes by halving the points: few planes pass a small box.
+/// Finds the points on planes by halving the point set, because few planes pass a small box.
 class PointsOnPlanes {
   public:
     PointsOnPlanes(const CutMemory& memory, std::span<const Vec3> points)
@@ -135,21 +135,21 @@ std::optional<std::pair<int, double>> exact_place(const Plane& plane) {
     const int axis = axis_of(plane);
     if (axis < 0) return {};
     const auto i = static_cast<std::size_t>(axis);
-    if (plane.offset == 0) return std::pair{axis, plane.through[i] + 0.0}; // 0 for -0
+    if (plane.offset == 0) return std::pair{axis, plane.through[i] + 0.0}; // 0 instead of -0
     if (plane.through[i] == 0 && std::fabs(plane.normal[i]) == 1)
         return std::pair{axis, -plane.offset * plane.normal[i]};
     return {};
 }
 
-/// Hashes planes by their exact coordinate, as most have; else by two numbers that do not depend on the
-/// notation of a plane, up to rounding: its distance from the origin, and the angle of its normal to some
-/// direction.
+/// Hashes planes by their exact coordinate if they have one. Other planes are hashed by two numbers that do
+/// not depend on the notation, up to rounding: the distance from the origin, and the angle between the
+/// normal and a direction.
 class PlaneBuckets {
   public:
     /// reach: the largest coordinate of the points through which the planes are written, and offset.
     explicit PlaneBuckets(double reach) : scale_(reach > 0 ? 1 / reach : 1) {}
 
-    /// The first plane put in that is the same; or this one, which is put in.
+    /// The first stored plane that is the same. If none is, stores this plane and returns it.
     std::size_t first(std::span<const Plane> planes, std::size_t number) {
         const auto place = exact_place(planes[number]);
         if (!place) return first_of_others(planes, number);
@@ -177,7 +177,7 @@ class PlaneBuckets {
         return number;
     }
 
-    /// Far above the rounding of the numbers, which are of the size of 1.
+    /// Far above the rounding of the numbers, which have a size near 1.
     static constexpr double cell = 1e-12;
 
     std::pair<double, double> numbers(const Plane& plane) const {
@@ -199,7 +199,7 @@ class PlaneBuckets {
     double scale_;
     std::map<std::pair<int, double>, std::size_t> places_;
     std::vector<std::size_t>
-        across_; ///< axis-aligned, at a coordinate that their numbers do not give exactly
+        across_; ///< axis-aligned planes whose numbers do not give the coordinate exactly
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> buckets_;
 };
 

@@ -27,17 +27,22 @@ bool are_equal(const Attribute& a, const Attribute& b) {
            bytes_in(a.data) == bytes_in(b.data);
 }
 
-bool are_equal(const Mesh& a, const Mesh& b) {
+bool are_equal(const Mesh& a, const Mesh& b, bool with_primitives) {
     return bytes_in(a.positions) == bytes_in(b.positions) &&
            bytes_in(a.wedge_vertex) == bytes_in(b.wedge_vertex) &&
            bytes_in(a.corners) == bytes_in(b.corners) &&
            bytes_in(a.face_offsets) == bytes_in(b.face_offsets) && bytes_in(a.lines) == bytes_in(b.lines) &&
-           bytes_in(a.line_primitive) == bytes_in(b.line_primitive) && a.primitives == b.primitives &&
+           bytes_in(a.line_primitive) == bytes_in(b.line_primitive) &&
+           (with_primitives
+                ? a.primitives == b.primitives
+                : std::equal(
+                      a.primitives.begin(), a.primitives.end(), b.primitives.begin(), b.primitives.end(),
+                      [](const Primitive& p, const Primitive& q) { return p.attributes == q.attributes; })) &&
            std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
                       [](const Attribute& x, const Attribute& y) { return are_equal(x, y); });
 }
 
-/// A hash of all arrays, so that meshes of equal hashes are nearly always equal.
+/// A hash of all arrays. Meshes with equal hashes are nearly always equal.
 std::uint64_t hash_of(const Mesh& mesh) {
     std::uint64_t h = 0;
     const auto add = [&](std::string_view bytes) { h = hashed(h, std::hash<std::string_view>{}(bytes)); };
@@ -51,13 +56,14 @@ std::uint64_t hash_of(const Mesh& mesh) {
 }
 
 /// Gives each of the parts, which are as large as each other, the first equal one.
-void find_among(const std::vector<std::size_t>& parts, const Scene& scene, std::vector<std::size_t>& first) {
+void find_among(const std::vector<std::size_t>& parts, const Scene& scene, bool with_primitives,
+                std::vector<std::size_t>& first) {
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_hash;
     for (const std::size_t p : parts) {
         const Mesh& mesh = scene.parts[p].mesh;
         auto& firsts = by_hash[hash_of(mesh)];
         const auto found = std::find_if(firsts.begin(), firsts.end(), [&](std::size_t other) {
-            return are_equal(scene.parts[other].mesh, mesh);
+            return are_equal(scene.parts[other].mesh, mesh, with_primitives);
         });
         first[p] = found == firsts.end() ? p : *found;
         if (found == firsts.end()) firsts.push_back(p);
@@ -66,7 +72,11 @@ void find_among(const std::vector<std::size_t>& parts, const Scene& scene, std::
 
 } // namespace
 
-DistinctParts::DistinctParts(const Scene& scene) : first(scene.parts.size()) {
+DistinctParts::DistinctParts(const Scene& scene) : DistinctParts(scene, true) {}
+
+DistinctParts distinct_geometry(const Scene& scene) { return {scene, false}; }
+
+DistinctParts::DistinctParts(const Scene& scene, bool with_primitives) : first(scene.parts.size()) {
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_size;
     for (std::size_t p = 0; p < first.size(); ++p) {
         first[p] = p;
@@ -74,7 +84,7 @@ DistinctParts::DistinctParts(const Scene& scene) : first(scene.parts.size()) {
         by_size[{mesh.vertex_count(), mesh.corner_count()}].push_back(p);
     }
     for (const auto& [size, parts] : by_size)
-        if (parts.size() > 1) find_among(parts, scene, first);
+        if (parts.size() > 1) find_among(parts, scene, with_primitives, first);
     count();
 }
 

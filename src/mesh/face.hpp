@@ -1,11 +1,11 @@
 #pragma once
-// Quantities of one face: neighbours in the ring of corners, area vector, mean, box.
+// Quantities of a face: neighbours in the ring of corners, area vector, mean, and box.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
-/// The corners after and before c in a face of the corners [begin, end).
+/// The corners after and before c in a face with the corners [begin, end).
 [[nodiscard]] inline Index next_corner(Index c, Index begin, Index end) {
     return c + 1 == end ? begin : c + 1;
 }
@@ -13,7 +13,7 @@ namespace facetmill {
     return c == begin ? end - 1 : c - 1;
 }
 
-/// The corners after and before c in face f, which has it.
+/// The corners after and before c in face f, which must contain c.
 [[nodiscard]] inline Index next_corner(const Mesh& mesh, Index f, Index c) {
     return next_corner(c, mesh.face_begin(f), mesh.face_end(f));
 }
@@ -21,9 +21,9 @@ namespace facetmill {
     return previous_corner(c, mesh.face_begin(f), mesh.face_end(f));
 }
 
-/// Twice the area of face f along its normal (Newell's sum, relative to the first corner: I. E. Sutherland,
-/// R. F. Sproull and R. A. Schumacker, "A characterization of ten hidden-surface algorithms", 1974).
-/// place(corner) returns the position of a corner.
+/// A vector along the normal of face f, with twice its area as length (Newell's sum, relative to the first
+/// corner: I. E. Sutherland, R. F. Sproull and R. A. Schumacker, "A characterization of ten hidden-surface
+/// algorithms", 1974). place(corner) returns the position of a corner.
 template <class Place>
 [[nodiscard]] Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
     Vec3 sum;
@@ -37,14 +37,14 @@ template <class Place>
     return area_vector_at(mesh, f, [&](Index c) { return mesh.point(c); });
 }
 
-/// In world space (a mirroring transform reverses it).
+/// The area vector in world space. A mirroring transform reverses it.
 [[nodiscard]] inline Vec3 area_vector(const Mesh& mesh, Index f, const Transform& to_world) {
     const Vec3& first = mesh.point(mesh.face_begin(f));
     return area_vector_at(mesh, f, [&](Index c) { return to_world.vector(mesh.point(c) - first); });
 }
 
-/// Whether the angle between two normals with this dot product exceeds the feature angle of that cosine. An
-/// excess by rounding alone (1e-12 of the cosine) does not count: a right angle does not exceed 90 degrees.
+/// Whether the angle between two normals with this dot product exceeds the feature angle with this cosine.
+/// An excess by rounding (1e-12 of the cosine) does not count, so a right angle does not exceed 90 degrees.
 inline bool exceeds_feature_angle(double dot_product, double cosine) { return dot_product < cosine - 1e-12; }
 
 /// The sum of the corners of face f. place(corner) returns the position of a corner.

@@ -1,12 +1,12 @@
 #pragma once
-// The box around points some of which may not be finite.
+// Computes the box of points that may not be finite.
 
 #include "base/math/vec.hpp"
 #include "parallel/parallel.hpp"
 
 namespace facetmill {
 
-/// The box around the finite points among n points at(i), in parallel; empty if no point is finite.
+/// The box around the finite points among n points at(i); empty if no point is finite. Parallel.
 template <class At>
 [[nodiscard]] Box box_of_finite(std::size_t n, const At& at) {
     return parallel_reduce(

@@ -1,5 +1,5 @@
 #pragma once
-// Which of many items is the first that each one equals, by a hash table of their numbers.
+// Finds the first equal item for each of many items, by a hash table.
 
 #include "mesh/mesh.hpp"
 
@@ -8,8 +8,8 @@
 namespace facetmill {
 
 /// For each of `count` items (fewer than 2^32), the lowest index of an equal item. hash(i): a well-mixed
-/// number, the same for equal items; equal(i, j): whether two items are equal. Expected O(count), with 8 to
-/// 16 bytes an item in addition to the result, which depends on equal alone.
+/// number, the same for equal items. equal(i, j): whether two items are equal. Only `equal` affects the
+/// result. Expected O(count), with 8 to 16 bytes per item in addition to the result.
 template <class Hash, class Equal>
 [[nodiscard]] std::vector<Index> first_of_equal(std::size_t count, Hash&& hash, Equal&& equal) {
     std::vector<Index> first(count), slots(std::bit_ceil(2 * count + 1), none);

@@ -1,5 +1,5 @@
 #pragma once
-// How far apart 32-bit floats are where a mesh is.
+// The distance between 32-bit floats at a mesh's coordinates.
 
 #include "base/math/vec.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-/// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box, and for one at the origin.
+/// A float32 ulp of the largest coordinate of the bounds. 0 for an empty box, and for a point at the origin.
 [[nodiscard]] inline double float32_ulp(const Box& bounds) {
     if (bounds.empty()) return 0;
     double largest = 0;

@@ -6,8 +6,8 @@
 
 namespace facetmill {
 
-/// The numbers below n for which is_wanted(number), ascending. The predicate is called once for each, from
-/// several threads.
+/// The numbers below n for which is_wanted(number) is true, ascending. The predicate is called once for each
+/// number, from several threads.
 template <class IsWanted>
 [[nodiscard]] std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
     std::vector<std::vector<Index>> parts((n + default_chunk - 1) / default_chunk);

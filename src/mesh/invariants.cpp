@@ -9,7 +9,7 @@ namespace facetmill {
 
 namespace {
 
-/// Violations of one kind, reported in one sentence with their number and the first.
+/// Violations of a kind, reported in a sentence with their number and the first.
 struct Finding {
     const char* what;
     std::size_t count = 0, first = 0;

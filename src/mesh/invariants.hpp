@@ -10,8 +10,8 @@
 
 namespace facetmill {
 
-/// Every violation, one sentence each: indices out of range, offsets not ascending, faces of fewer than
-/// three corners, attributes of the wrong size for their domain, positions that are not finite, unnormalised
+/// A sentence for each violation: indices out of range, offsets not ascending, faces of fewer than three
+/// corners, attributes of the wrong size for their domain, positions that are not finite, unnormalised
 /// offsets, primitives out of range. Empty for a valid mesh.
 [[nodiscard]] std::vector<std::string> broken_invariants(const Mesh& mesh);
 [[nodiscard]] std::vector<std::string> broken_invariants(const Scene& scene);

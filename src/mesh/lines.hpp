@@ -1,5 +1,5 @@
 #pragma once
-// Lines, which are no surface until they get a thickness: a part has faces, or lines, or neither.
+// Lines, which have no surface until they get a thickness. A part has faces, or lines, or neither.
 
 #include "mesh/scene.hpp"
 
@@ -8,12 +8,12 @@
 
 namespace facetmill {
 
-/// Straight lines between points. Lines meet if they end at the same point, or at points of exactly the same
-/// position.
+/// Straight lines between points. Lines meet if they end at the same point, or at points with exactly the
+/// same position.
 struct Lines {
     struct Segment {
-        Index from = 0, to = 0; ///< into points
-        Index material = none;  ///< into Scene::materials
+        Index from = 0, to = 0; ///< indices of points
+        Index material = none;  ///< index in Scene::materials
     };
 
     std::string name;
@@ -24,7 +24,7 @@ struct Lines {
 /// The lines of the part in world space, under its name. O(n).
 [[nodiscard]] Lines lines_of(const Part& part);
 
-/// [vertices] 1 where a line of the mesh uses the vertex. O(n).
+/// [vertices] 1 if a line of the mesh uses the vertex. O(n).
 [[nodiscard]] std::vector<std::uint8_t> marked_ends_of_lines(const Mesh& mesh);
 
 /// Separates the lines of a mesh that also has faces or points. Returns the lines, with their vertices and

@@ -1,15 +1,14 @@
 #pragma once
 // The mesh that flows from stage to stage: a plain value of flat arrays with three index levels.
 //
-//   corner --corners[c]--> wedge --wedge_vertex[w]--> vertex --positions[v]--> point
-//   face f --face_offsets[f] .. face_offsets[f+1]--> its corners, in order
-//   line l --lines[2 l], lines[2 l + 1]--> its two ends, which are wedges; a mesh has faces, or lines, or
-//   neither
+//   corner --corners[c]--> wedge --wedge_vertex[w]--> vertex --positions[v]--> point face f
+//   --face_offsets[f] .. face_offsets[f+1]--> its corners, in order line l --lines[2 l], lines[2 l + 1]-->
+//   its two ends, which are wedges; a mesh has faces, or lines, or neither
 //
-// Topology lives on vertices: two faces are neighbours when they share two vertices, whatever their wedges.
-// A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with two
-// wedges. Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable; see
-// mesh/topology.hpp for what can be derived and mesh/invariants.hpp for what always holds.
+// Topology is defined by vertices: two faces are neighbours if they share two vertices, regardless of their
+// wedges. A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with
+// two wedges. Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable;
+// see mesh/topology.hpp for derived data and mesh/invariants.hpp for the invariants.
 
 #include "base/math/vec.hpp"
 #include "mesh/attribute_changes.hpp"
@@ -31,30 +30,31 @@ inline constexpr Index none = UINT32_MAX;
 /// An entry of the table that the face attribute "primitive" indexes: a glTF primitive. Faces of one glTF
 /// mesh are merged for geometry, and separated again by primitive on writing.
 struct Primitive {
-    Index material = none;               ///< into Scene::materials
-    std::vector<std::string> attributes; ///< names of the wedge attributes it had; empty: all
+    Index material = none;               ///< index in Scene::materials
+    std::vector<std::string> attributes; ///< names of its wedge attributes; empty: all
     std::string json;                    ///< the source's extras and extensions (a JSON object), or empty
 
     /// Whether `attributes` lists the attribute explicitly; an empty list means all.
     bool lists(std::string_view attribute) const {
         return std::find(attributes.begin(), attributes.end(), attribute) != attributes.end();
     }
-    /// Whether it has the wedge attribute, where the mesh has it.
+    /// Whether it has the wedge attribute, if the mesh has it.
     bool has(std::string_view attribute) const { return attributes.empty() || lists(attribute); }
     bool operator==(const Primitive&) const = default;
 };
 
-/// See the head of this file. Moved, not shared; cheap to copy only when small.
+/// See the head of this file. Meshes are moved, not shared; only small meshes are cheap to copy.
 struct Mesh {
-    std::vector<Vec3> positions;     ///< [vertices]
-    std::vector<Index> wedge_vertex; ///< [wedges] -> vertex; empty: wedge w is vertex w
-    std::vector<Index> corners;      ///< [corners] -> wedge, face by face
-    std::vector<Index> face_offsets; ///< [faces + 1] into corners; empty: all faces are triangles
+    std::vector<Vec3> positions;     ///< [vertices] positions
+    std::vector<Index> wedge_vertex; ///< [wedges] vertices; empty: wedge w is vertex w
+    std::vector<Index> corners;      ///< [corners] wedges, face by face
+    std::vector<Index> face_offsets; ///< [faces + 1] offsets into corners; empty: all faces are triangles
     std::vector<Attribute> attributes;
-    std::vector<Primitive> primitives; ///< empty: one, with no material. Else face attribute "primitive"
-                                       ///< indexes it (absent: all faces are of primitive 0)
-    std::vector<Index> lines;          ///< [2 * lines] -> wedge: straight lines, of a mesh without faces
-    std::vector<Index> line_primitive; ///< [lines] -> primitive; empty: all lines are of primitive 0
+    std::vector<Primitive>
+        primitives; ///< empty: a single primitive without material; otherwise the face attribute "primitive"
+                    ///< indexes this (if absent, all faces use primitive 0)
+    std::vector<Index> lines;          ///< [2 * lines] wedges: straight lines, in a mesh without faces
+    std::vector<Index> line_primitive; ///< [lines] primitives; empty: all lines use primitive 0
 
     std::size_t vertex_count() const { return positions.size(); }
     std::size_t wedge_count() const { return wedge_vertex.empty() ? positions.size() : wedge_vertex.size(); }
@@ -83,55 +83,55 @@ struct Mesh {
     Attribute* find(std::string_view name, Domain domain);
     /// Removes the attribute. Returns false if it does not exist.
     bool drop(std::string_view name, Domain domain);
-    /// Index of the primitive of face f.
+    /// The index of the primitive of face f.
     Index primitive_of(Index f) const;
-    /// Index of the primitive of line l.
+    /// The index of the primitive of line l.
     Index primitive_of_line(std::size_t l) const { return line_primitive.empty() ? 0 : line_primitive[l]; }
 
-    Box bounds() const; ///< of the positions that finite faces and isolated vertices use: all of them
+    Box bounds() const; ///< the box of all positions
 };
 
 /// The box around points, in parallel.
 [[nodiscard]] Box box_of(std::span<const Vec3> points);
 
-/// Name of the face attribute (Role::index, uint32, 1 component) that indexes Mesh::primitives.
+/// The name of the face attribute (Role::index, uint32, 1 component) that indexes Mesh::primitives.
 inline constexpr std::string_view primitive_attribute = "primitive";
 
-/// Appends a face given by its wedges; keeps face_offsets empty as long as all faces are triangles.
+/// Appends a face given by its wedges. Keeps face_offsets empty while all faces are triangles.
 void add_face(Mesh& mesh, std::span<const Index> wedges);
 
-/// Removes face_offsets when all faces are triangles (the canonical form of an all-triangle mesh).
+/// Removes face_offsets if all faces are triangles (the canonical form of an all-triangle mesh).
 void normalise_offsets(Mesh& mesh);
 
-/// Removes wedge_vertex when every wedge is its vertex (the canonical form of a mesh without seams).
+/// Removes wedge_vertex if every wedge is its vertex (the canonical form of a mesh without seams).
 void normalise_wedges(Mesh& mesh);
 
 /// Drops vertices and wedges that no face and no line uses. Attributes follow.
 void drop_unused(Mesh& mesh);
-/// Likewise among the marked vertices, one flag for each.
+/// Drops unused vertices and wedges only among the marked vertices. marked: [vertices].
 void drop_unused(Mesh& mesh, std::span<const std::uint8_t> marked);
 
-/// Merges vertices at exactly the same position (-0 is 0); wedges stay apart, so attributes survive. Vertices
-/// keep the order of their first occurrence. Faces are kept, degenerate ones too. Returns how many vertices
-/// went.
+/// Merges vertices at exactly the same position (-0 is 0); wedges stay separate, so attributes survive.
+/// Vertices keep the order of their first occurrence. All faces stay, even degenerate faces. Returns the
+/// number of removed vertices.
 std::size_t weld_exact(Mesh& mesh);
 
 /// The mesh with every face of four or more corners cut into triangles. Quads are cut along the shorter
-/// diagonal (ties: the diagonal at the first corner). Larger faces become a fan when convex from some
-/// corner, else ears are clipped in the plane of the polygon's normal. Face attributes are copied, wedges
-/// untouched. Faces of fewer than three corners are dropped. The triangulate stage offers more.
+/// diagonal (ties: the diagonal at the first corner). Larger faces become a fan if they are convex from some
+/// corner; otherwise ears are clipped in the plane of the polygon's normal. Face attributes are copied, and
+/// wedges are unchanged. Faces with fewer than three corners are dropped. The stage triangulate has more
+/// methods.
 [[nodiscard]] Mesh triangulated(const Mesh& mesh);
 
-/// Appends b to a: vertices, wedges, faces, lines, primitives. Attributes that one has none of: see
-/// append.cpp.
+/// Appends b to a: vertices, wedges, faces, lines, primitives. If only one has an attribute, see append.cpp.
 void append(Mesh& a, const Mesh& b);
 
 /// Sets wedge attribute NORMAL, if present, to the area-weighted normal over the faces that meet at the
 /// wedge's vertex and share its normal direction group. Wedges separated by a normal seam stay separate.
-/// Returns the change of the attribute, or none when the mesh has no normals.
+/// Returns the change of the attribute, or none if the mesh has no normals.
 std::optional<AttributeChange> recompute_normals(Mesh& mesh);
 
-/// Applies t to positions, normals, tangents and morph vectors; flips faces when t mirrors.
+/// Applies t to positions, normals, tangents and morph vectors; flips faces if t mirrors.
 void apply(Mesh& mesh, const Transform& t);
 
 } // namespace facetmill

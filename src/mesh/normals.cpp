@@ -6,14 +6,14 @@ namespace facetmill {
 
 namespace {
 
-/// The wedges at one vertex that had the same normal, and the sum of the area vectors of their faces.
+/// The wedges of a vertex that had the same normal, and the sum of the area vectors of their faces.
 struct NormalGroup {
     Vec3 old, sum;
 };
 
 Vec3 normal_of(const Attribute& a, Index w) { return {a.value(w, 0), a.value(w, 1), a.value(w, 2)}; }
 
-/// Gives the wedges of the corners at one vertex their new normals.
+/// Gives the wedges of the corners at a vertex their new normals.
 void renew_at_vertex(const Mesh& mesh, std::span<const Index> corners, const std::vector<Index>& face_of,
                      const std::vector<Vec3>& areas, const Attribute& old, Attribute& renewed,
                      std::vector<NormalGroup>& groups) {
@@ -27,7 +27,7 @@ void renew_at_vertex(const Mesh& mesh, std::span<const Index> corners, const std
     for (const Index c : corners) group_of(c).sum += areas[face_of[c]];
     for (const Index c : corners) {
         const Vec3 normal = normalised(group_of(c).sum);
-        if (!(dot(normal, normal) > 0)) continue; // only faces without area: keep the old normal
+        if (!(dot(normal, normal) > 0)) continue; // if all faces have no area, the old normal stays
         for (int i = 0; i < 3; ++i)
             renewed.set_value(mesh.corners[c], i, normal[static_cast<std::size_t>(i)]);
     }

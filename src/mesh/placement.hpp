@@ -1,5 +1,5 @@
 #pragma once
-// The position of a part in the world, and its bare surface there.
+// Converts a part's points and bare surface to world space.
 
 #include "mesh/scene.hpp"
 

@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// For numbers whose products doubles cannot hold.
+/// Computes the side for numbers whose products doubles cannot hold.
 double whole_side(const Plane& plane, const Vec3& p) {
     mpz_class sum = exact_integer(plane.offset) << 1074;
     for (std::size_t i = 0; i < 3; ++i)
@@ -33,9 +33,8 @@ double side(const Plane& plane, const Vec3& p) {
                  z = plane.normal.z * (p.z - plane.through.z);
     const double value = x + y + z + plane.offset;
     const double magnitude = std::fabs(x) + std::fabs(y) + std::fabs(z) + std::fabs(plane.offset);
-    // Each term carries at most two roundings and goes through at most three sums: 5 * 2^-53, taken as 8 *
-    // 2^-53 so that the roundings of this bound itself do not matter. The smallest normal number covers
-    // underflow.
+    // Each term has at most two roundings and passes at most three sums: 5 * 2^-53. The bound uses 8 *
+    // 2^-53, so that its own rounding does not matter. The smallest normal number covers underflow.
     if (std::fabs(value) > 8.9e-16 * magnitude + 1e-300) return value;
     if (magnitude == 0) {
         const int axis = axis_of(plane);
@@ -47,14 +46,15 @@ double side(const Plane& plane, const Vec3& p) {
 
 namespace {
 
-/// Whether components i and j of the normals are certainly not in proportion: each product and the
-/// difference have one rounding.
+/// Whether components i and j of the normals are certainly not proportional. Each product and the difference
+/// have a single rounding.
 bool surely_turned(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) {
     const double x = a[i] * b[j], y = a[j] * b[i];
     return std::fabs(x - y) > 4.5e-16 * (std::fabs(x) + std::fabs(y)) + 1e-300;
 }
 
-/// The same plane with a normal between 1 and 2, by a power of two: so that products with it do not overflow.
+/// Returns the same plane, scaled by a power of two to a normal with length near 1, so that products with it
+/// do not overflow.
 Plane scaled(Plane plane) {
     int power = -2000;
     for (std::size_t i = 0; i < 3; ++i)
@@ -72,7 +72,7 @@ bool same_plane(const Plane& given_a, const Plane& given_b) {
         if (surely_turned(given_a.normal, given_b.normal, i, (i + 1) % 3)) return false;
     const Plane a = scaled(given_a), b = scaled(given_b);
     for (std::size_t i = 0; i < 3; ++i) {
-        ExactSum<4> turn; // of the normals against each other
+        ExactSum<4> turn; // turn between the normals
         turn.add_product(a.normal[i], b.normal[(i + 1) % 3]);
         turn.add_product(-a.normal[(i + 1) % 3], b.normal[i]);
         if (turn.sign() != 0) return false;
@@ -80,7 +80,7 @@ bool same_plane(const Plane& given_a, const Plane& given_b) {
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (std::fabs(a.normal[i]) > std::fabs(a.normal[axis])) axis = i;
-    const auto level = [](const Plane& p) { // of normal . x, for x in the plane
+    const auto level = [](const Plane& p) { // the value of normal . x for points x in the plane
         ExactSum<7> sum;
         for (std::size_t i = 0; i < 3; ++i) sum.add_product(p.normal[i], p.through[i]);
         sum.add(-p.offset);
@@ -128,7 +128,7 @@ int axis_of(const Plane& plane) {
 void check_plane(const Plane& plane) {
     if (plane.normal == Vec3{} || !is_finite(plane.normal))
         throw Error(ErrorKind::usage, "E-PLANE", "the plane's normal must be finite and not zero",
-                    "for example normal: [0, 0, 1]");
+                    "give a direction: plane: {normal: [0, 0, 1]}");
     if (!is_finite(plane.through) || !std::isfinite(plane.offset))
         throw Error(ErrorKind::usage, "E-PLANE", "the plane's point and offset must be finite numbers");
 }

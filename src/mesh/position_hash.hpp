@@ -17,11 +17,11 @@
 
 namespace facetmill {
 
-/// The bits of a point's three float32, 0 for -0: equal where the point is, also where it is not a number.
+/// The bits of a point's three float32, with 0 for -0. Equal points have equal bits, and NaNs too.
 using FloatBits = std::array<std::uint32_t, 3>;
 
-/// A well-mixed number of the coordinates. Products of 128 bits are folded to 64 together with their
-/// factors, so that a factor 0 does not cancel the other (after Y. Wang et al., "wyhash", 2019).
+/// A well-mixed hash of the coordinates. Products of 128 bits are folded to 64 together with their factors,
+/// so that a factor 0 does not cancel the other (after Y. Wang et al., "wyhash", 2019).
 [[nodiscard]] inline std::uint64_t place_hash(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     __extension__ using Wide = unsigned __int128;
     const auto mixed = [](std::uint64_t x, std::uint64_t y) {
@@ -32,7 +32,7 @@ using FloatBits = std::array<std::uint32_t, 3>;
     return mixed(mixed(a ^ keys[0], b ^ keys[1]) ^ keys[2], c ^ keys[1]);
 }
 [[nodiscard]] inline std::uint64_t place_hash(const FloatBits& p) { return place_hash(p[0], p[1], p[2]); }
-/// The same for -0 and 0.
+/// A hash of the point, equal for -0 and 0.
 [[nodiscard]] inline std::uint64_t place_hash(const Vec3& p) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
     return place_hash(bits(p.x), bits(p.y), bits(p.z));
@@ -42,24 +42,24 @@ using FloatBits = std::array<std::uint32_t, 3>;
 /// choice of the slot depends on the threads, its final content does not.
 class PositionHash {
   public:
-    /// Fewer than 2^32 slots; `grows`: a larger one can be had when it fills.
+    /// slots: fewer than 2^32. grows: a larger table can replace it when it is full.
     PositionHash(std::size_t slots, bool grows) : slots_(new Slot[slots]), size_(slots), grows_(grows) {
         parallel_for(slots, [&](std::size_t s) { slots_[s].first = none; });
     }
 
     /// Sets slot[i] to the slot of each point, and bit i of is_first if the point is the first at its
-    /// position. Returns false when the table is too full.
+    /// position. Returns false if the table is too full.
     template <class Point>
     bool add(std::vector<Index>& slot, std::vector<std::uint64_t>& is_first, const Point& point) {
         std::atomic<std::size_t> taken = 0;
         std::atomic<bool> full = false;
         std::mutex guard;
-        std::vector<Index> displaced; // thought to be the first, until one before them came
+        std::vector<Index> displaced; // points that were first until an earlier point came
         ProgressScope::report_next_loop();
         parallel_chunks(slot.size(), [&](std::size_t begin, std::size_t end) {
             if (full.load(std::memory_order_relaxed)) return;
             Chunk chunk;
-            constexpr std::size_t block = 32; // points whose slots are prefetched
+            constexpr std::size_t block = 32; // number of points whose slots are prefetched
             std::array<std::pair<FloatBits, Index>, block> next;
             for (std::size_t at = begin; at < end; at += block) {
                 const std::size_t count = std::min(block, end - at);
@@ -91,21 +91,21 @@ class PositionHash {
 
   private:
     struct Slot {
-        Index first; ///< none: free; busy: another thread is writing the key
+        Index first; ///< none: the slot is free; busy: another thread is writing the key
         FloatBits key;
     };
     static constexpr Index busy = none - 1;
 
     /// The state of a thread for the points of a chunk.
     struct Chunk {
-        std::size_t taken = 0;  ///< slots
-        bool was_first = false; ///< the last point, so far
+        std::size_t taken = 0;  ///< number of taken slots
+        bool was_first = false; ///< whether the last point was the first at its position so far
         std::vector<Index> displaced;
     };
 
     Index home(std::uint64_t hash) const { return static_cast<Index>((hash >> 32) * size_ >> 32); }
 
-    /// The slot of position p of point i, at or after the given slot; none when the table is full.
+    /// The slot of position p of point i, at or after the given slot; none if the table is full.
     Index put(Index i, Index slot, const FloatBits& p, Chunk& chunk) {
         for (std::size_t probes = 0; probes < size_; ++probes) {
             std::atomic_ref<Index> first(slots_[slot].first);
@@ -131,7 +131,7 @@ class PositionHash {
         return none;
     }
 
-    /// a == b, which is a call of memcmp.
+    /// Equals a == b, but without a call of memcmp.
     static bool is_same(const FloatBits& a, const FloatBits& b) {
         return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
     }
@@ -149,11 +149,12 @@ class PositionHash {
 };
 
 /// Sets number[i] to the number of the position of point(i), for all i below number.size() < 2^32 - 2.
-/// Positions are numbered in the order of their first points; equal keys are one position. begin(places)
-/// receives their count. Unless it returns false, first(place, i, key) is then called for the first point of
-/// each, in parallel, with the key of one of its points. point.done(begin, end), if it exists, is called
-/// after the first visit of these points. `expected` is the approximate number of positions, which saves
-/// memory. Returns the number of positions. The result is the same for any number of threads.
+/// Positions are numbered in the order of their first points. Equal keys are the same position.
+/// begin(places) receives their count. Unless it returns false, first(place, i, key) is then called for the
+/// first point of each position, in parallel, with the key of one of its points. point.done(begin, end), if
+/// it exists, is called after the first visit of these points. `expected` is the approximate number of
+/// positions, which saves memory. Returns the number of positions. The result does not depend on the number
+/// of threads.
 template <class Point, class Begin, class First>
 std::size_t number_places(std::vector<Index>& number, std::size_t expected, const Point& point, Begin&& begin,
                           First&& first) {

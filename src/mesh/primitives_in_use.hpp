@@ -1,6 +1,6 @@
 #pragma once
-// Primitives that something is drawn with: a stage that removes faces leaves the table of primitives as it
-// is.
+// Finds primitives that faces or lines use. A stage that removes faces does not change the table of
+// primitives.
 
 #include "mesh/mesh.hpp"
 
@@ -8,8 +8,8 @@
 
 namespace facetmill {
 
-/// [primitives] whether faces or lines are of the primitive; each is, where the mesh has only points. O(faces
-/// + lines).
+/// [primitives] Whether faces or lines use the primitive. All true if the mesh has only points. O(faces +
+/// lines).
 [[nodiscard]] std::vector<bool> primitives_in_use(const Mesh& mesh);
 
 } // namespace facetmill

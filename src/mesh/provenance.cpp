@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-/// The old elements that a new one comes from, with weights that sum to one.
+/// The old elements from which a new element comes, with weights that sum to one.
 struct Parents {
     std::span<const Index> sources;
     std::span<const double> weights;
@@ -82,8 +82,8 @@ void mix_components(const T* from, std::size_t k, std::size_t c, std::size_t n, 
             sums[i] += parents.weights[p] * static_cast<double>(from[parents.sources[p] * k + c + i]);
 }
 
-/// Scales the first three sums to unit length (to the type's maximum for normalised integers); when they
-/// cancel, the first parent's direction is taken.
+/// Scales the first three sums to unit length (to the type's maximum for normalised integers). If they
+/// cancel, uses the first parent's direction.
 template <class T>
 void renormalise(double* sums, const T* first_parent) {
     double scale = 1;
@@ -114,7 +114,7 @@ void mix_element(const Attribute& a, const std::vector<T>& from, T* to, const Pa
     }
 }
 
-/// The attribute of the new elements, in one visit.
+/// The attribute of the new elements, in a single pass.
 Attribute inherited(const Attribute& from, const Ancestry& ancestry) {
     Attribute to{from.name, from.domain, from.role, from.components, from.normalised, {}};
     const auto k = static_cast<std::size_t>(from.components);
@@ -160,10 +160,11 @@ struct Skin {
     }
 };
 
-/// Sums the weights of equal joints and puts the strongest first, ties by joint.
+/// Sums the weights of equal joints and sorts the strongest first, ties by joint.
 void unite(std::vector<Influence>& all) {
-    std::sort(all.begin(), all.end(),
-              [](const auto& a, const auto& b) { return a.joint < b.joint; }); // then summed
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.joint < b.joint;
+    }); // adjacent joints are then summed
     std::size_t kept = 0;
     for (const auto& i : all) {
         if (kept > 0 && all[kept - 1].joint == i.joint)
@@ -177,7 +178,7 @@ void unite(std::vector<Influence>& all) {
     });
 }
 
-/// Adds the rounding error of fractional weights to the strongest, so that they still sum to one.
+/// Adds the rounding error of fractional weights to the strongest weight, so that they still sum to one.
 void settle_rounding(const Skin& skin, std::size_t element) {
     double rest = 1;
     for (const auto* w : skin.new_weights)

@@ -1,4 +1,4 @@
-// Which way quads are cut.
+// Chooses the diagonals along which quads are cut.
 #include "mesh/quad_diagonal.hpp"
 
 #include "parallel/parallel.hpp"
@@ -17,7 +17,7 @@ std::uint64_t diagonal_of(const Mesh& mesh, Index f, bool second) {
     return key_of(mesh.vertex(c), mesh.vertex(c + 2));
 }
 
-/// How often each of the keys that come more than once does.
+/// The counts of keys that occur more than once.
 std::unordered_map<std::uint64_t, int> repeated_keys(std::vector<std::uint64_t> keys) {
     radix_sort(keys, [](std::uint64_t k) { return k; });
     std::unordered_map<std::uint64_t, int> found;
@@ -26,7 +26,7 @@ std::unordered_map<std::uint64_t, int> repeated_keys(std::vector<std::uint64_t> 
     return found;
 }
 
-/// The only edges that a diagonal may coincide with, each once.
+/// The edges that a diagonal may coincide with, each once.
 std::vector<std::uint64_t> edges_between_corners_of_quads(const Mesh& mesh) {
     std::vector<std::uint8_t> of_quad(mesh.vertex_count());
     for (Index f = 0; f < mesh.face_count(); ++f)

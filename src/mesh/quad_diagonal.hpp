@@ -1,29 +1,28 @@
 #pragma once
-// The one rule by which quads are cut in two, for all that cuts them: triangulated, split, files of
-// triangles.
+// The common rule for cutting quads in two, used by triangulated(), split and triangle formats.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
-/// Which diagonals of a quad are sound: the triangles on both sides look the same way.
+/// The sound diagonals of a quad: the triangles on both sides face the same direction.
 struct QuadDiagonals {
     bool first = false, second = false; ///< from corner 0 to 2; from corner 1 to 3
-    bool cut_at_second = false;         ///< the one to take: the sound one, of two (or none) the shorter;
-                                        ///< ties: the one at the first corner
+    bool cut_at_second = false; ///< the diagonal to use: the sound diagonal, or the shorter if both or
+                                ///< neither are sound; ties: the diagonal at the first corner
 
-    /// Only one diagonal is sound: the quad has a reflex corner, and that diagonal ends there.
+    /// True if only one diagonal is sound. It ends at the quad's reflex corner.
     bool concave() const { return first != second; }
 };
 
 /// Face f must have four corners.
 [[nodiscard]] QuadDiagonals quad_diagonals(const Mesh& mesh, Index f);
 
-/// The diagonal of every quad, 1: from its second corner. Each is the one of quad_diagonals, unless
-/// that joins two vertices that an edge or an earlier quad's diagonal joins already while the other one is
-/// sound and free. coinciding: quads where neither was free.
+/// The diagonal of every quad. It is the diagonal of quad_diagonals, with an exception. The other diagonal
+/// is used if it is sound and free, and an edge or an earlier diagonal already joins the two vertices of the
+/// first. coinciding: quads where neither was free.
 struct QuadCuts {
-    std::vector<std::uint8_t> at_second; ///< [faces]
+    std::vector<std::uint8_t> at_second; ///< [faces] 1: the diagonal from the second corner
     std::size_t coinciding = 0;
 };
 [[nodiscard]] QuadCuts quad_cuts(const Mesh& mesh);

@@ -15,44 +15,44 @@ enum class UpAxis { unknown, y, z };
 
 /// Metres per unit; 0 for unknown.
 [[nodiscard]] double metres(Unit unit);
-/// "mm", "in", "unknown", ...
+/// The unit as text: "mm", "in", "unknown" ...
 [[nodiscard]] const char* to_string(Unit unit);
 [[nodiscard]] const char* to_string(UpAxis up);
-/// The unit of that spelling, or none.
+/// The unit with this spelling, or none.
 [[nodiscard]] std::optional<Unit> unit_named(std::string_view text);
 
-/// A glTF file as it was: the parsed document is the truth, and writing patches meshes, accessors,
-/// bufferViews and buffers in it and leaves all else alone.
+/// A glTF file as read. Writing patches meshes, accessors, bufferViews and buffers in the document, and
+/// leaves the rest unchanged.
 struct Document {
     std::string json;                                    ///< the whole JSON text
-    std::vector<std::vector<std::byte>> buffers;         ///< by buffer index, loaded
-    std::map<std::string, std::vector<std::byte>> files; ///< external images, by their uri as spelled
+    std::vector<std::vector<std::byte>> buffers;         ///< loaded buffers, by index
+    std::map<std::string, std::vector<std::byte>> files; ///< external images, by their URI as spelled
     std::string name;                                    ///< the file's name, for messages
 };
 
-struct CutMemory; // mesh/cut_memory.hpp
+struct CutMemory;
 
 struct Material {
     std::string name{};
     double base_colour[4] = {1, 1, 1, 1}; ///< linear RGBA
     bool double_sided = false;
     int document = -1; ///< index into Scene::documents, or -1
-    int index = -1;    ///< its index in that document's materials
+    int index = -1;    ///< index in that document's materials
 };
 
 /// A mesh in its own space and its transform to the world.
 struct Part {
     std::string name{};
     Mesh mesh{};
-    Transform transform{}; ///< part space -> world
+    Transform transform{}; ///< from part space to the world
     int document = -1;     ///< index into Scene::documents, or -1
-    int node = -1;         ///< its node in the document
-    int source_mesh = -1;  ///< its mesh in the document
+    int node = -1;         ///< node in the document, or -1
+    int source_mesh = -1;  ///< mesh in the document, or -1
     bool skinned =
-        false; ///< in bind pose; its transform is the identity, as glTF has it, until a stage moves it
+        false; ///< in bind pose; as in glTF, the transform is the identity until a stage moves the part
     bool changed =
-        false; ///< set by every stage that gives the part another mesh: extensions of it are then dropped
-    std::shared_ptr<const CutMemory> cuts{}; ///< points that clips made on planes, in part space; or nothing
+        false; ///< set by every stage that changes the part's mesh; extensions of the mesh are then dropped
+    std::shared_ptr<const CutMemory> cuts{}; ///< points that clips made on planes, in part space; may be null
 };
 
 struct Scene {
@@ -62,7 +62,7 @@ struct Scene {
     UpAxis up = UpAxis::unknown;
     std::vector<std::shared_ptr<const Document>> documents;
 
-    Box bounds() const; ///< world space, over all parts
+    Box bounds() const; ///< the box of all parts in world space
     std::size_t face_count() const;
 };
 

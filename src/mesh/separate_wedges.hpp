@@ -1,5 +1,5 @@
 #pragma once
-// Wedges that come apart where their corners differ.
+// Separates wedges whose corners differ.
 
 #include "mesh/mesh.hpp"
 

@@ -100,7 +100,7 @@ Mesh icosahedron() {
     return mesh;
 }
 
-/// Every triangle into four, the new points on the unit sphere.
+/// Divides every triangle into four, with the new points on the unit sphere.
 Mesh refined(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
     const auto n = static_cast<Index>(mesh.vertex_count());

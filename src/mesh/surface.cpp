@@ -37,8 +37,8 @@ void append(Surface& all, Surface&& one, Index first_face) {
     all.positions.insert(all.positions.end(), one.positions.begin(), one.positions.end());
 }
 
-/// For each side of the box of all vertices the first vertex on it; none if a side is 0, because its sign
-/// depends on the order of the vertices.
+/// The first vertex on each side of the box of all vertices. None if a side is at 0, whose sign would depend
+/// on the order of the vertices.
 std::optional<std::array<Index, 6>> vertices_on_sides(const std::vector<Vec3>& positions, const Box& box) {
     std::array<Index, 6> first{};
     for (std::size_t side = 0; side < first.size(); ++side) {
@@ -70,7 +70,7 @@ bool are_corners(const std::array<Index, 6>& vertices, const std::vector<Index>&
 } // namespace
 
 Box Surface::bounds() const {
-    // Vertices are read in order, twice as fast as corner by corner. If the vertices on the sides of their
+    // Reading vertices in order is twice as fast as corner by corner. If the vertices on the sides of their
     // box are corners, it is also the box of the corners.
     if (positions.size() < corners.size()) {
         const Box all = box_of_finite(positions.size(), [&](std::size_t v) { return positions[v]; });

@@ -27,7 +27,8 @@ struct HalfEdge {
     Index low, high, corner;
 };
 
-/// Sorts one bucket by (low, high, corner): counted by low vertex, then each vertex's few by hand.
+/// Sorts a bucket by (low, high, corner): a counting sort by low vertex, then an insertion sort of each
+/// vertex's few items.
 void sort_bucket(std::span<HalfEdge> items, Index first_vertex, std::size_t vertices,
                  std::vector<HalfEdge>& room, std::vector<Index>& counts) {
     room.assign(items.begin(), items.end());
@@ -40,7 +41,7 @@ void sort_bucket(std::span<HalfEdge> items, Index first_vertex, std::size_t vert
     };
     std::size_t begin = 0;
     for (std::size_t v = 0; v < vertices; ++v) {
-        const std::size_t end = counts[v]; // after the scatter: where v's items end
+        const std::size_t end = counts[v]; // the end of v's items after the scatter
         if (end - begin > 16) {
             std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin),
                       items.begin() + static_cast<std::ptrdiff_t>(end), before);
@@ -91,7 +92,7 @@ EdgeTable build_edges(const Mesh& mesh) {
     std::vector<Index> first_edge(buckets.count());
     parallel_for(
         buckets.count(),
-        [&](std::size_t b) { // an edge never spans buckets
+        [&](std::size_t b) { // an edge never belongs to two buckets
             Index count = 0;
             for (std::size_t i = buckets.begin[b]; i < buckets.begin[b + 1]; ++i)
                 count += i == buckets.begin[b] || !same_edge(items[i], items[i - 1]);
@@ -124,7 +125,7 @@ EdgeTable build_edges(const Mesh& mesh) {
 
 namespace {
 
-/// Of the edges whose number of faces is wanted, an entry for each face.
+/// Edges with a wanted number of faces; an entry for each face.
 template <class Wanted>
 std::vector<BoundaryEdge> edges_of_faces(const Mesh& mesh, Wanted&& wanted) {
     const auto edges = build_edges(mesh);
@@ -205,7 +206,7 @@ Index DisjointSets::find(Index i) {
     for (;;) {
         const Index p = load(parent_[i]), above = load(parent_[p]);
         if (p == above) return p;
-        Index expected = p; // halve the path; another thread may have been faster
+        Index expected = p; // halves the path; another thread may have been faster
         std::atomic_ref(parent_[i]).compare_exchange_weak(expected, above, std::memory_order_relaxed);
         i = above;
     }
@@ -239,7 +240,7 @@ void join_corners(const Mesh& mesh, DisjointSets& vertices) {
     });
 }
 
-/// Roots into numbers, in the order of the first face that has them.
+/// Converts roots to numbers, in the order of the first face with each root.
 Components numbered(std::vector<Index> roots, std::size_t elements) {
     Components result;
     std::vector<Index> number(elements, none);
@@ -257,7 +258,7 @@ std::size_t component_count(const Mesh& mesh) {
     DisjointSets sets(mesh.vertex_count());
     join_corners(mesh, sets);
     std::vector<std::uint8_t> is_root(mesh.vertex_count(),
-                                      0); // roots of faces, so isolated vertices stay out
+                                      0); // only roots of faces, which excludes isolated vertices
     parallel_for(mesh.corner_count(), [&](std::size_t c) {
         const Index v = mesh.vertex(static_cast<Index>(c));
         if (sets.find(v) == v) std::atomic_ref(is_root[v]).store(1, std::memory_order_relaxed);

@@ -1,5 +1,5 @@
 #pragma once
-// Adjacency, derived where it is needed and never kept in the mesh. All of it lives on vertices, not wedges.
+// Adjacency, computed on demand and never stored in the mesh. It is defined by vertices, not wedges.
 
 #include "mesh/face.hpp"
 
@@ -15,9 +15,9 @@ struct EdgeTable {
         Index low, high; ///< vertices, low < high
     };
     std::vector<Edge> edges;           ///< [edges]
-    std::vector<Index> corner_offsets; ///< [edges + 1] into edge_corners
+    std::vector<Index> corner_offsets; ///< [edges + 1] offsets into edge_corners
     std::vector<Index> edge_corners;   ///< corners along each edge, ascending
-    std::vector<Index> corner_edge;    ///< [corners] -> edge, or none for a self edge
+    std::vector<Index> corner_edge;    ///< [corners] edges, or none for a self edge
 
     std::size_t size() const { return edges.size(); }
     std::span<const Index> corners_of(Index e) const {
@@ -25,7 +25,8 @@ struct EdgeTable {
     }
 };
 
-/// Builds the edge table; parallel radix sort, O(corners). The same for any number of threads.
+/// Builds the edge table; parallel radix sort, O(corners). The result does not depend on the number of
+/// threads.
 [[nodiscard]] EdgeTable build_edges(const Mesh& mesh);
 
 /// The face of each corner.
@@ -34,20 +35,20 @@ struct EdgeTable {
 /// An edge of exactly one face.
 struct BoundaryEdge {
     Index corner, face; ///< the corner that runs along it, and its face
-    Index from, to;     ///< its vertices, as the face runs
+    Index from, to;     ///< its vertices, in the direction of the face
 };
-/// In the order of the edge table: by (low vertex, high vertex).
+/// The boundary edges, in the order of the edge table: by (low vertex, high vertex).
 [[nodiscard]] std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh);
-/// The edges of exactly one face, and the edges of three, five ... faces, where all faces except one may
-/// pair up: one entry for each face. In the order of the edge table.
+/// The edges with one, three, five ... faces, where all faces except one may form pairs. An entry for each
+/// face, in the order of the edge table.
 [[nodiscard]] std::vector<BoundaryEdge> odd_edges(const Mesh& mesh);
 
-/// For each vertex the lowest one at exactly the same position (-0 is 0).
+/// For each vertex, the lowest vertex at exactly the same position (-0 is 0).
 [[nodiscard]] std::vector<Index> lowest_at_place(const Mesh& mesh);
 
 /// Lists per vertex in compressed form: items[offsets[v] .. offsets[v+1]].
 struct VertexLists {
-    std::vector<Index> offsets; ///< [vertices + 1]
+    std::vector<Index> offsets; ///< [vertices + 1] offsets
     std::vector<Index> items;
     std::span<const Index> of(Index v) const {
         return {items.data() + offsets[v], items.data() + offsets[v + 1]};
@@ -57,8 +58,8 @@ struct VertexLists {
 /// The corners at each vertex, ascending.
 [[nodiscard]] VertexLists corners_at_vertices(const Mesh& mesh);
 
-/// Component of each face (faces are connected when they share an edge or, with by_vertex, a vertex),
-/// numbered by first face; and their number.
+/// The component of each face, and the number of components. Faces are connected if they share an edge or,
+/// with by_vertex, a vertex. Components are numbered by first face.
 struct Components {
     std::vector<Index> of_face;
     std::size_t count = 0;
@@ -69,12 +70,13 @@ struct Components {
 /// face_components(mesh).count, without the numbering.
 [[nodiscard]] std::size_t component_count(const Mesh& mesh);
 
-/// Sets that are joined from several threads at once. A root only ever points to a lower one, so the root of
-/// a finished set is its lowest member, whatever the order of the joins.
+/// Sets that are joined from several threads at once. A root only ever points to a lower root. So the root
+/// of a finished set is its lowest member, for any order of joins.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t n = 0);
-    /// A set of one more member, which it returns. While no other thread works on the sets.
+    /// Adds a set with a single new member, and returns the member. No other thread may use the sets
+    /// meanwhile.
     Index add();
     /// The lowest member known of i's set; final once all joins are done.
     Index find(Index i);

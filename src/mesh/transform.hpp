@@ -1,6 +1,6 @@
 #pragma once
-// Affine maps: their inverse, and how much they lengthen, for lengths in the world that are used in a part's
-// own space.
+// Functions of affine maps: the inverse, and the growth of lengths, to convert world lengths to a part's own
+// space.
 
 #include "base/math/portable_math.hpp"
 #include "base/math/vec.hpp"
@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-/// The inverse of an affine map; none when it is singular.
+/// The inverse of an affine map; none if it is singular.
 [[nodiscard]] std::optional<Transform> inverse(const Transform& t);
 
 /// Transforms a normal direction: the cofactors times it.
@@ -19,22 +19,23 @@ namespace facetmill {
     return {dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n)};
 }
 
-/// The vector turned about a unit axis, in radians, anticlockwise seen against the axis. After O. Rodrigues,
-/// "Des lois geometriques qui regissent les deplacements d'un systeme solide dans l'espace" (1840).
+/// The vector rotated about a unit axis by an angle in radians, anticlockwise seen against the axis. After
+/// O. Rodrigues, "Des lois geometriques qui regissent les deplacements d'un systeme solide dans l'espace"
+/// (1840).
 [[nodiscard]] inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
     const double c = cosine(angle), s = sine(angle);
     return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
 }
 
 /// The cube root of the growth of volumes: the growth of lengths under a rotation and a uniform scale, and
-/// its geometric mean under others. 1 for a transform that flattens.
+/// its geometric mean under other transforms. 1 for a transform that flattens.
 [[nodiscard]] inline double mean_stretch(const Transform& t) {
     const double volume = std::abs(t.determinant());
     return volume > 0 && std::isfinite(volume) && volume != 1 ? exponential(logarithm(volume) / 3) : 1;
 }
 
-/// The greatest growth of any length: exact for similarities, else at most sqrt(3) times as much. 1 for a
-/// transform that flattens to a point.
+/// The largest growth of any length: exact for similarities, otherwise at most sqrt(3) times too large. 1
+/// for a transform that flattens to a point.
 [[nodiscard]] inline double greatest_stretch(const Transform& t) {
     const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
     const double xx = dot(x, x), sum = xx + dot(y, y) + dot(z, z), slack = 1e-9 * sum;

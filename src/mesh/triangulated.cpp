@@ -1,4 +1,4 @@
-// Polygons into triangles, without new points.
+// Cuts polygons into triangles without new points.
 #include "base/math/predicates.hpp"
 #include "mesh/quad_diagonal.hpp"
 #include "parallel/parallel.hpp"
@@ -19,10 +19,10 @@ int turn(const Point2& a, const Point2& b, const Point2& c) {
     return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
 
-using Triangle = std::array<Index, 3>; // positions in the polygon: 0 .. n - 1
+using Triangle = std::array<Index, 3>; // positions in the polygon, 0 to n - 1
 
-/// A polygon seen along the axis nearest to its normal, so that it runs anticlockwise. Leaving a coordinate
-/// out keeps the others exact, and so the turns.
+/// A polygon projected along the axis nearest to its normal, so that it runs anticlockwise. Dropping a
+/// coordinate keeps the others, and so the turns, exact.
 std::vector<Point2> flattened(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
     Vec3 normal;
@@ -46,7 +46,7 @@ bool fan_works(const std::vector<Point2>& p, std::size_t from) {
     return true;
 }
 
-/// Ears are clipped from a ring of corners; only reflex corners can lie in an ear.
+/// Clips ears from a ring of corners. Only reflex corners can be inside an ear.
 class EarClipper {
   public:
     explicit EarClipper(const std::vector<Point2>& points)
@@ -65,7 +65,8 @@ class EarClipper {
         std::size_t left = p_.size(), since_ear = 0;
         Index i = 0;
         while (left > 3) {
-            // A polygon that crosses itself may have no ear left: cut a corner anyway, the count stays right.
+            // A polygon that crosses itself may have no ear left. Cutting any corner keeps the number of
+            // triangles right.
             if (is_ear(i) || since_ear > left) {
                 out(Triangle{previous_[i], i, next_[i]});
                 i = cut(i);
@@ -89,12 +90,12 @@ class EarClipper {
             if (r == a || r == i || r == b) return false;
             const Point2& q = p_[r];
             if ((q.x == p_[a].x && q.y == p_[a].y) || (q.x == p_[b].x && q.y == p_[b].y))
-                return false; // a bridge
+                return false; // a bridge to a hole
             return turn(p_[a], p_[i], q) >= 0 && turn(p_[i], p_[b], q) >= 0 && turn(p_[b], p_[a], q) >= 0;
         });
     }
 
-    /// Takes corner i out; returns the corner to go on with, two further, which spreads the cuts around the
+    /// Removes corner i. Returns the corner to continue with, two further, which spreads the cuts around the
     /// ring.
     Index cut(Index i) {
         const Index a = previous_[i], b = next_[i];
@@ -108,7 +109,8 @@ class EarClipper {
     std::vector<Index> next_, previous_, reflex_;
 };
 
-/// Calls out(Triangle) for the triangles of face f: always its size less two. at_second: of a quad.
+/// Calls out(Triangle) for the triangles of face f, always two fewer than its corners. at_second: cuts a
+/// quad from its second corner.
 template <class Out>
 void cut_face(const Mesh& mesh, Index f, bool at_second, Out&& out) {
     const Index n = mesh.face_size(f);
@@ -118,7 +120,7 @@ void cut_face(const Mesh& mesh, Index f, bool at_second, Out&& out) {
     if (n == 3) return fan(0);
     if (n == 4) return fan(at_second ? 1 : 0);
     const auto points = flattened(mesh, f);
-    constexpr Index tried = 16; // each trial is linear; ears do what fans cannot
+    constexpr Index tried = 16; // each trial is linear; ear clipping handles the rest
     for (Index from = 0; from < std::min(n, tried); ++from)
         if (fan_works(points, from)) return fan(from);
     EarClipper(points).run(out);

@@ -109,16 +109,16 @@ struct HashedVertex {
     std::uint32_t hash; ///< low bits choose the bucket, the others the slot in it
 };
 
-/// NaN equals nothing, so many NaN with one hash would each be compared with all earlier. The index
-/// separates them.
+/// NaN equals no number, so each of many NaNs with the same hash would be compared with all earlier NaNs.
+/// The index separates them.
 std::uint32_t position_hash(const Vec3& p, std::size_t v) {
     if (!(p == p)) return static_cast<std::uint32_t>(place_hash(v, 0, 0));
     return static_cast<std::uint32_t>(place_hash(p));
 }
 
-constexpr int bucket_bits = 11; // one pass of the radix sort
+constexpr int bucket_bits = 11; // bits of the radix sort's only pass
 
-constexpr std::size_t few = 4096; // vertices that are one bucket: buckets cost more than they save
+constexpr std::size_t few = 4096; // below this many vertices, a single bucket is faster
 
 /// Finds the hashes that occur more than once, plus a few others: a bit for each of 16 times as many hashes
 /// as exist (a Bloom filter with one function, after B. H. Bloom, "Space/time trade-offs in hash coding with
@@ -180,7 +180,7 @@ std::vector<HashedVertex> doubtful_vertices(const std::vector<Vec3>& positions) 
         });
 }
 
-/// Sets first[v] to the first vertex at v's position, for the vertices of one bucket (ascending).
+/// Sets first[v] to the first vertex at v's position, for the vertices of a bucket (ascending).
 void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& positions,
                  std::vector<Index>& first) {
     const std::size_t slots = std::bit_ceil(2 * bucket.size());
@@ -237,9 +237,10 @@ std::size_t weld_exact(Mesh& mesh) {
     std::vector<Index> flags(n);
     parallel_for(n, [&](std::size_t v) { flags[v] = first[v] == v ? 1 : 0; });
     const Survivors vertices = survivors(std::move(flags));
-    parallel_for(
-        n, [&](std::size_t v) { first[v] = vertices.renumbered[first[v]]; }); // now: the new vertex of each
-    if (!has_attributes(mesh, Domain::wedge)) {                               // nothing to keep apart
+    parallel_for(n, [&](std::size_t v) {
+        first[v] = vertices.renumbered[first[v]];
+    });                                         // first now has the new vertex of each
+    if (!has_attributes(mesh, Domain::wedge)) { // no attributes to keep separate
         for (auto* indices : {&mesh.corners, &mesh.lines}) {
             if (mesh.has_seams()) renumber(*indices, mesh.wedge_vertex);
             renumber(*indices, first);

@@ -5,7 +5,8 @@
 
 namespace facetmill {
 
-/// For each vertex the lowest at the same position (-0 is 0); empty where each is the only one. Parallel.
+/// For each vertex, the lowest vertex at the same position (-0 is 0). Empty if all positions differ.
+/// Parallel.
 [[nodiscard]] std::vector<Index> first_at_position(const std::vector<Vec3>& positions);
 
 } // namespace facetmill

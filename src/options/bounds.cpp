@@ -1,4 +1,4 @@
-// Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
+// Implements bounds and limits of options/types.hpp.
 #include "base/math/numbers.hpp"
 #include "base/math/portable_math.hpp"
 #include "options/byte_count.hpp"

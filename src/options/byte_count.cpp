@@ -26,11 +26,11 @@ constexpr std::array<ByteUnit, 9> byte_units{{{"B", 1},
                                               {"MiB", 1048576.0},
                                               {"GiB", 1073741824.0},
                                               {"TiB", 1099511627776.0}}};
-constexpr double max_bytes = 9007199254740992.0; // 2^53: all counts up to here are numbers of their own
+constexpr double max_bytes = 9007199254740992.0; // 2^53: doubles represent all counts up to this exactly
 
 constexpr const char* bytes_expected = "a count of bytes (1000000, 10MB, 1.5MiB, 8G)";
 
-/// A letter alone counts by 1024, as coreutils, Docker and Slurm have it.
+/// The unit with this name. A single letter is a multiple of 1024, as in coreutils, Docker and Slurm.
 const ByteUnit* byte_unit(std::string_view name) {
     const auto letter = name.size() == 1 ? std::string_view("kmgt").find(lower_case(std::string(name)))
                                          : std::string_view::npos;
@@ -40,7 +40,7 @@ const ByteUnit* byte_unit(std::string_view name) {
     return unit == byte_units.end() ? nullptr : &*unit;
 }
 
-/// For a unit in the wrong case, "mb" or "Gb": the two that may be meant.
+/// A hint for a unit in the wrong case ("mb", "Gb"): the two possible units.
 std::string byte_unit_hint(double number, std::string_view unit) {
     const std::string small = lower_case(std::string(unit));
     const auto at = std::string_view("kmgt").find(small.empty() ? '?' : small[0]);
@@ -71,9 +71,9 @@ std::optional<double> read_byte_count(const Value& value, Problems& problems) {
     const double whole = std::round(bytes); // 4.35kB times 1000 may miss 4350 by the last bit
     if (bytes >= 0 && bytes <= max_bytes && std::abs(bytes - whole) <= 1e-12 * whole) return whole;
     problems.add(value.mark, "E-RANGE", fmt::format("'{}' is not a number of bytes", value.text),
-                 bytes < 0           ? "bytes are counted from 0"
+                 bytes < 0           ? "bytes cannot be negative"
                  : bytes > max_bytes ? "at most 9007199254740992 (8192TiB)"
-                                     : "bytes come whole");
+                                     : "a number of bytes must be whole");
     return {};
 }
 

@@ -115,7 +115,7 @@ Json default_json(const Option& option) {
     return text;
 }
 
-/// Whether true gives a group its defaults, and false is as good as not giving it.
+/// Whether true gives a group its defaults, and false means the same as omitting it.
 bool is_switch(const Option& option) {
     return option.fields && option.may_be_true && !option.fields->shorthand;
 }
@@ -142,7 +142,8 @@ void add_conflicts(const std::vector<std::string>& names, Json& object) {
             if (name != other) object["dependentSchemas"][name]["properties"][other] = false;
 }
 
-/// One of the names is required. Each form names its property, as strict validators require.
+/// A schema that requires at least one of the names. Each form names its property, as strict validators
+/// require.
 Json any_of_these(const std::vector<std::string>& names) {
     Json forms = Json::array();
     for (const auto& name : names)
@@ -199,7 +200,7 @@ std::vector<std::string> names_of_choices(const Option& option) {
 
 void refuse_choice(const Option& option, const Value& value, std::string hint, Problems& problems) {
     problems.add(value.mark, "E-CHOICE",
-                 fmt::format("'{}' is one of {}, found {}", option.name,
+                 fmt::format("'{}' must be one of {}, found {}", option.name,
                              fmt::join(names_of_choices(option), ", "), value.described()),
                  std::move(hint));
 }
@@ -219,7 +220,7 @@ std::optional<std::size_t> choice_index(const Option& option, const Value& value
 
 namespace {
 
-/// Reads one option and checks its range.
+/// Reads an option and checks its range.
 bool parse_option(const Option& option, const Value& value, void* target, Problems& problems) {
     if (const auto on = is_switch(option) ? value.as_bool() : std::nullopt)
         return !*on || option.parse(option, Value::map({}, value.mark), target, problems);
@@ -238,7 +239,7 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
         if (std::find(rule.names.begin(), rule.names.end(), e.key) != rule.names.end())
             given.push_back(e.key);
     if (given.size() > 1 && rule.rule != Exclusion::Rule::at_least_one) {
-        add_refusal(Refusal{given[1], fmt::format("at most one of {} may be given, found {}",
+        add_refusal(Refusal{given[1], fmt::format("only one of {} may be given, found {}",
                                                   fmt::join(rule.names, ", "), fmt::join(given, " and "))},
                     owner, map, problems);
         return false;
@@ -251,7 +252,7 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
     return true;
 }
 
-/// The option that has the value among its choices, where the bare one cannot: `textures: webp`.
+/// The option that has the value among its choices, if the primary option lacks it: `textures: webp`.
 const Option* other_choice(const Declaration& declaration, const Option& primary, const Value& value) {
     static constexpr std::array texts{OptionKind::text, OptionKind::path, OptionKind::choice,
                                       OptionKind::list, OptionKind::group};
@@ -265,7 +266,7 @@ const Option* other_choice(const Declaration& declaration, const Option& primary
     return it == declaration.options.end() || &*it == &primary ? nullptr : &*it;
 }
 
-/// The options that accept a number, if the bare value must be a name: `split: 2`. Empty if none does.
+/// The options that accept a number, if the bare value must be a name: `split: 2`. Empty if no option does.
 std::string hint_of_number(const Declaration& declaration, const Option& primary, std::string_view owner,
                            const Value& value) {
     constexpr std::size_t most_told = 3;
@@ -277,11 +278,11 @@ std::string hint_of_number(const Declaration& declaration, const Option& primary
     if (ways.empty()) return {};
     const std::string last = ways.back();
     ways.pop_back();
-    return fmt::format("a number is given by the name of its option: {}{}{}", fmt::join(ways, ", "),
+    return fmt::format("a number needs the name of its option: {}{}{}", fmt::join(ways, ", "),
                        ways.empty() ? "" : " or ", last);
 }
 
-/// More names than one reads through are not listed.
+/// Longer lists of names are omitted, because users do not read them.
 constexpr std::size_t most_listed = 24;
 
 std::string where_listed(std::string_view owner, std::size_t names) {
@@ -303,7 +304,7 @@ std::string hint_of_bare_value(const Declaration& declaration, std::string_view 
     return where.empty() ? fmt::format("its options are: {}", fmt::join(names, ", ")) : where;
 }
 
-/// The primary option, where it takes the share that was given to one that counts: `faces: 10%`.
+/// The primary option, if it accepts the share that was given to a count option: `faces: 10%`.
 const Option* meant_share(const Declaration& declaration, const Option& option, const Value& value) {
     const Option* primary = declaration.primary();
     if (!primary || primary->kind != OptionKind::ratio || option.kind != OptionKind::integer ||
@@ -313,7 +314,7 @@ const Option* meant_share(const Declaration& declaration, const Option& option, 
     return value.text.ends_with('%') || (number && *number > 0 && *number < 1) ? primary : nullptr;
 }
 
-/// A bare value as the map that it is short for.
+/// The map for which a bare value is short.
 Value as_map(const Option& option, const Value& value) {
     return Value::map({{option.name, value.mark, value}}, value.mark);
 }
@@ -329,8 +330,8 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         if (const Option* o = bare ? other_choice(*this, *bare, value) : nullptr) {
             problems.add(
                 value.mark, "E-TYPE",
-                fmt::format("a bare value of {} is its '{}', found {}", owner, bare->name, value.described()),
-                fmt::format("{} is a value of '{}': give it that name", value.text, o->name));
+                fmt::format("a bare value of {} sets '{}', found {}", owner, bare->name, value.described()),
+                fmt::format("{} is a value of '{}', so write that name", value.text, o->name));
             return false;
         }
         if (const std::string hint = bare ? hint_of_number(*this, *bare, owner, value) : ""; !hint.empty()) {
@@ -339,19 +340,19 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         }
         if (bare) return parse(as_map(*bare, value), target, owner, problems, also_known);
         problems.add(value.mark, "E-VALUE",
-                     fmt::format("{} takes no bare value, found {}", owner, value.described()),
+                     fmt::format("{} does not accept a bare value, found {}", owner, value.described()),
                      hint_of_bare_value(*this, owner, value));
         return false;
     }
     bool good = true;
-    std::set<std::string> meant; // named by unknown names
+    std::set<std::string> meant; // options that unknown names mean
     for (const auto& entry : value.entries) {
         if (also_known.contains(entry.key)) continue;
         if (const Option* o = find(entry.key)) {
             if (const Option* share = meant_share(*this, *o, entry.value)) {
                 good = wrong_type(entry.value, "an integer", problems,
-                                  fmt::format("a share is the value of '{0}': write {1}: {{{0}: {2}}}",
-                                              share->name, owner, entry.value.text));
+                                  fmt::format("a ratio sets '{0}': write {1}: {{{0}: {2}}}", share->name,
+                                              owner, entry.value.text));
                 continue;
             }
             good &= parse_option(*o, entry.value, target, problems);

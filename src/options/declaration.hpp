@@ -1,19 +1,12 @@
 #pragma once
-// The one declaration of an option. A stage writes
+// Declares options. A stage writes
 //
-//   struct RelaxOptions {
-//       std::int64_t iterations = 1;
-//       double lambda = 1;
-//       Method method = Method::laplacian;
-//   };
-//   void declare(Declare<RelaxOptions>& d) {
-//       d.option("iterations", &RelaxOptions::iterations, "How many times ...").at_least(1).primary();
-//       d.option("lambda", &RelaxOptions::lambda, "How far ...").between(0, 1);
-//       d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "The mean ..."}, ...},
-//                "Which ...");
-//       d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
-//       d.at_most_one({"ratio", "faces"});
-//   }
+//   struct RelaxOptions { std::int64_t iterations = 1; double lambda = 1; Method method = Method::laplacian;
+//   }; void declare(Declare<RelaxOptions>& d) { d.option("iterations", &RelaxOptions::iterations, "How many
+//   times ...").at_least(1).primary(); d.option("lambda", &RelaxOptions::lambda, "How far ...").between(0,
+//   1); d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "The mean ..."}, ...},
+//   "Which ..."); d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
+//   d.at_most_one({"ratio", "faces"}); }
 //
 // and parsing, the one-liner, help, man page, JSON Schema and the sweep test follow. Defaults are the
 // members' initialisers, so they are written once.
@@ -33,8 +26,8 @@ struct Choice {
 
 struct Declaration;
 
-/// All that is known of an option, for every consumer. (Copies and destructors of these structs are compiled
-/// once, in declaration.cpp, rather than by every stage.)
+/// The complete declaration of an option, for every consumer. (Copies and destructors of these structs are
+/// compiled once, in declaration.cpp, rather than by every stage.)
 struct Option {
     Option();
     Option(const Option&);
@@ -45,36 +38,37 @@ struct Option {
 
     std::string name;
     OptionKind kind = OptionKind::text;
-    OptionKind one = OptionKind::text; ///< of one value, where several may be given; else the kind
+    OptionKind one =
+        OptionKind::text; ///< the kind of a single value, if several may be given; otherwise the kind
     Dimension dimension = Dimension::none;
-    std::string help;         ///< one or two sentences; says the unit when the number has one
-    std::string default_text; ///< the default's spelling; empty when unset
+    std::string help;         ///< one or two sentences, with the unit if the number has one
+    std::string default_text; ///< the default as text; empty if unset
     bool required = false;
     bool primary = false;    ///< a bare value sets it
     bool repeatable = false; ///< takes a list
     Range range;
     std::vector<Choice> choices;
-    std::shared_ptr<const Declaration> fields; ///< of a group
+    std::shared_ptr<const Declaration> fields; ///< the declaration of a group
     Json schema;
-    /// Reads the value into this option's member of the struct at target. False after adding problems. The
+    /// Reads the value into this option's member of the struct at target. False if it added problems. The
     /// range is checked by Declaration::parse.
     Function<bool(const Option&, const Value&, void* target, Problems&)> parse;
     /// The number in the struct that the range limits, if there is one.
     Function<std::optional<double>(const void* target)> magnitude;
     std::vector<Synonyms> synonyms; ///< what other programs call it
-    bool may_be_true = false;       ///< true is one of its values, beside others
+    bool may_be_true = false;       ///< true is one of its values, besides other kinds
 
-    /// Whether a value may be a list: several, or one that is a list.
+    /// Whether a value may be a list, because several are allowed or because a value is a list.
     bool may_be_list() const;
 };
 
-/// What stands for a group when it is no map and not the value of its primary option.
+/// The short form of a group that is neither a map nor the value of its primary option.
 enum class ShortForm {
     none,
-    truth,       ///< true or false: switched on or off
-    number,      ///< one number
-    list,        ///< a list, or one word of it
-    text_or_list ///< a text of its own, or a list
+    truth,       ///< true or false: switches the group on or off
+    number,      ///< a number
+    list,        ///< a list, or a single word of it
+    text_or_list ///< a text in a special syntax, or a list
 };
 
 /// A rule over several options.
@@ -95,22 +89,23 @@ struct Declaration {
 
     std::vector<Option> options;
     std::vector<Exclusion> exclusions;
-    /// Reads a value that is no map (none: the primary option takes it). For groups with a short form,
+    /// Reads a value that is not a map (empty: the primary option reads it). For groups with a short form,
     /// "z=0.2".
     Function<bool(const Value&, void* target, Problems&)> shorthand;
-    ShortForm short_form = ShortForm::none; ///< what shorthand reads
+    ShortForm short_form = ShortForm::none; ///< the form that shorthand reads
     std::string shorthand_help;
     Json shorthand_schema;
 
     const Option* find(std::string_view name) const;
     const Option* primary() const;
     std::vector<std::string> names() const;
-    std::vector<KnownName> known_names() const; ///< for hints
+    std::vector<KnownName> known_names() const; ///< names for hints
     Json schema() const;
 
-    /// Reads a stage's value into the options struct at target: null takes the defaults, a map sets options
-    /// by name, anything else goes to the shorthand or the primary option. owner is for messages: "clip",
-    /// "clip: plane". Keys in also_known are skipped (the common keys). False after adding problems.
+    /// Reads a stage's value into the options struct at target: null keeps the defaults, and a map sets
+    /// options by name. Other values go to the shorthand or the primary option. owner: the name for
+    /// messages, "clip" or "clip: plane". Keys in also_known are skipped (the common keys). False if it
+    /// added problems.
     bool parse(const Value& value, void* target, std::string_view owner, Problems& problems,
                const std::set<std::string>& also_known = {}) const;
 };
@@ -151,12 +146,14 @@ class OptionRef {
         option().primary = true;
         return *this;
     }
-    /// For numbers whose type does not say it: a double that is a count, an integer that is bytes.
+    /// Sets the dimension of a number whose type does not imply it: a double that is a count, an integer
+    /// that is bytes.
     OptionRef& measures(Dimension dimension) {
         option().dimension = dimension;
         return *this;
     }
-    /// The words of other programs, separated by blanks. how: what to write, where the name does not say it.
+    /// Sets names in other programs, separated by blanks. how: the text to write, if the name alone does not
+    /// show it.
     OptionRef& also_called(std::string_view words, std::string_view how = {}) {
         option().synonyms.push_back({std::string(words), std::string(how)});
         return *this;
@@ -177,12 +174,13 @@ struct NamedChoice {
 };
 
 [[nodiscard]] Json choice_schema(const std::vector<Choice>& choices);
-/// Which of the option's choices the value spells (0 for a deferred value); none after adding a problem.
+/// The index of the option's choice that the value names (0 for a deferred value). If invalid, adds a
+/// problem and returns none.
 [[nodiscard]] std::optional<std::size_t> choice_index(const Option& option, const Value& value,
                                                       Problems& problems);
 
 /// The offset in bytes of a member in the object. Only the offset of a member is stored, so that the code
-/// that reads it is compiled once a type instead of once a member.
+/// that reads it is compiled once per type, not once per member.
 template <class S, class T>
 [[nodiscard]] std::size_t offset_of(const S& object, T S::*member) {
     const auto address = [](const auto& thing) {
@@ -201,14 +199,14 @@ const T& member_at(const void* record, std::size_t offset) {
     return *reinterpret_cast<const T*>(static_cast<const std::byte*>(record) + offset);
 }
 
-/// Adds an option to those of a declaration.
+/// Adds an option to a declaration.
 Option& start_option(Declaration& owner, std::string_view name, OptionKind kind, std::string_view help);
-/// The declaration, owned.
+/// Moves the declaration into shared ownership.
 [[nodiscard]] std::shared_ptr<const Declaration> shared(Declaration&& declaration);
-/// Adds the options of a struct that lies at the offset within the one that is parsed.
+/// Adds the options of a struct at this offset in the parsed struct.
 void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset);
 
-/// Adds an option whose value is the T at the offset, which is now the default.
+/// Adds an option whose value is the T at the offset. Its current value is the default.
 template <class T>
 void typed_option(Declaration& owner, std::string_view name, std::size_t offset, const T& now,
                   std::string_view help) {
@@ -284,7 +282,8 @@ class Declare {
         Declare<G> nested;
         fill(nested);
         Option& o = start_option(declaration, name, OptionKind::group, help);
-        if constexpr (requires { OptionType<G>::kind; }) o.one = OptionType<G>::kind; // of lists elsewhere
+        if constexpr (requires { OptionType<G>::kind; })
+            o.one = OptionType<G>::kind; // for lists, the kind of a single value
         o.fields = shared(std::move(nested.declaration));
         o.schema = o.fields->schema();
         o.parse = [at = offset_of(defaults_, member)](const Option& self, const Value& v, void* target,
@@ -298,7 +297,7 @@ class Declare {
         return last();
     }
 
-    /// The options of a struct within S, as if they were its own: fill(Declare<G>&) declares them.
+    /// Adds the options of a struct within S as if they were members of S. fill(Declare<G>&) declares them.
     template <class G, class Fill>
     void embed(G S::*member, Fill fill) {
         Declare<G> inner(defaults_.*member);
@@ -306,7 +305,7 @@ class Declare {
         embed_options(declaration, inner.declaration, offset_of(defaults_, member));
     }
 
-    /// For groups: how a value that is no map is read.
+    /// Sets how a group reads a value that is not a map.
     template <class Parse>
     void shorthand(ShortForm form, std::string_view help, Json schema, Parse parse) {
         declaration.short_form = form;

@@ -29,12 +29,12 @@ Json described(const Field& field) {
     std::string about = field.help;
     if (!field.unit.empty()) about += fmt::format(" In {}.", field.unit);
     if (!field.null_when.empty()) about += fmt::format(" Null when {}.", field.null_when);
-    if (!field.only_when.empty()) about += fmt::format(" Only when {}.", field.only_when);
+    if (!field.only_when.empty()) about += fmt::format(" Present only when {}.", field.only_when);
     if (!about.empty()) schema["description"] = about;
     return schema;
 }
 
-/// "filled holes 2, welded vertices 12" over all items of the list, in the order of their fields.
+/// The sums over all items of the list, in the order of their fields: "filled holes 2, welded vertices 12".
 std::string tally(const Field& list, const void* record) {
     std::string text;
     for (const Field& field : list.fields->all) {

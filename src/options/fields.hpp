@@ -1,16 +1,12 @@
 #pragma once
-// The one declaration of a field of a result, as declaration.hpp is of an option. A stage writes
+// Declares fields of results, like declaration.hpp for options. A stage writes
 //
 //   struct RelaxedPart { std::string part; std::size_t iterations; std::optional<double> last_move; };
-//   struct RelaxReport { std::vector<RelaxedPart> parts; };
-//   void declare_report(DeclareFields<RelaxReport>& d) {
-//       d.list("parts", &RelaxReport::parts, "Each part.", [](DeclareFields<RelaxedPart>& p) {
-//           p.field("part", &RelaxedPart::part, "Its name.");
-//           p.field("iterations", &RelaxedPart::iterations, "How many there were.");
-//           p.field("last_move", &RelaxedPart::last_move, "The farthest move in the last of them.")
-//               .unit("scene units").only_when("until is given");
-//       });
-//   }
+//   struct RelaxReport { std::vector<RelaxedPart> parts; }; void declare_report(DeclareFields<RelaxReport>&
+//   d) { d.list("parts", &RelaxReport::parts, "Each part.", [](DeclareFields<RelaxedPart>& p) {
+//   p.field("part", &RelaxedPart::part, "Its name."); p.field("iterations", &RelaxedPart::iterations, "How
+//   many there were."); p.field("last_move", &RelaxedPart::last_move, "The farthest move in the last of
+//   them.") .unit("scene units").only_when("until is given"); }); }
 //
 // and the JSON of the report, its JSON Schema, the help pages and the lines on the terminal follow.
 
@@ -33,11 +29,11 @@ struct Fields;
 namespace fields {
 /// The printable values of a phrase on the terminal.
 using Printable = std::variant<std::uint64_t, std::int64_t, double, std::string>;
-/// Looks at the object in a record, or at each item of the list; false: the record has none.
+/// Visits the object in a record, or each item of the list. False if the record has none.
 using Each = Function<bool(const void* record, const std::function<void(const void*)>& look)>;
 } // namespace fields
 
-/// All that is known of a field, for every consumer.
+/// The complete declaration of a field, for every consumer.
 struct Field {
     Field();
     Field(const Field&);
@@ -47,32 +43,33 @@ struct Field {
     ~Field();
 
     std::string name;
-    std::string type; ///< for people: "count", "number", "text", "list of objects"
+    std::string type; ///< type shown to users: "count", "number", "text", "list of objects"
     std::string unit; ///< "scene units", "degrees"; empty: none
     std::string help;
     std::string null_when; ///< the meaning of null; empty: it is never null
     std::string only_when; ///< the condition for the key; empty: always present
-    int optionals = 0;     ///< how many may be empty around the value: of two, the outer leaves out the key
+    int optionals =
+        0; ///< the number of optionals around the value; of two, an empty outer optional omits the key
     std::vector<Choice> choices;
-    Json schema;                          ///< of a value that is not null
-    std::shared_ptr<const Fields> fields; ///< of an object, or of the items of a list
+    Json schema;                          ///< schema of a value that is not null
+    std::shared_ptr<const Fields> fields; ///< fields of an object, or of the items of a list
 
     /// Adds the field to the object.
     Function<void(const Field&, const void* record, Json& object)> put;
-    /// Its value; none: it is empty, or no number and no text.
+    /// The field's value; none if it is empty, or neither number nor text.
     Function<std::optional<facetmill::fields::Printable>(const void* record)> value;
-    /// The value as text for the terminal; none: it is not printed.
+    /// The value as text for the terminal; none if it is not printed.
     Function<std::optional<std::string>(const void* record)> phrase;
-    /// For a count: its value.
+    /// The value of a count.
     Function<std::uint64_t(const void* record)> count;
-    /// For an object or a list.
+    /// Visits an object or the items of a list.
     facetmill::fields::Each each;
     bool is_list = false;
-    /// For a list: the text if all counts of its items are 0; else their sums are printed by name.
+    /// For a list: the text if all counts of its items are 0. Otherwise their sums are printed by name.
     std::optional<std::string> nothing_counted;
 };
 
-/// The fields of a record, type-erased; in the order of the report.
+/// The fields of a record in the order of the report, type-erased.
 struct Fields {
     Fields();
     Fields(const Fields&);
@@ -82,14 +79,15 @@ struct Fields {
     ~Fields();
 
     std::vector<Field> all;
-    std::string heading; ///< the field whose text leads the line of a record: "part"
+    std::string heading; ///< the field whose text begins the line of a record: "part"
     /// Lines for the terminal, if phrases of single fields do not suffice.
     Function<std::vector<std::string>(const void* record)> tell;
 
     Json json(const void* record) const;
     /// The schema of an object with exactly these keys.
     Json schema() const;
-    /// For the terminal: `tell`, or a line of the phrases, and a line for each list item that has phrases.
+    /// The lines for the terminal: from `tell`, or a line of the phrases and a line for each list item with
+    /// phrases.
     std::vector<std::string> lines(const void* record) const;
 };
 
@@ -108,7 +106,7 @@ struct Inner {
 template <class T>
 struct Inner<std::optional<T>> : Inner<T> {};
 
-/// The JSON Schemas of plain values, and of a list of such; may_be_null: its items.
+/// The JSON Schemas of plain values, and of lists of plain values. may_be_null: the items may be null.
 [[nodiscard]] Json schema_of_type(const char* type);
 [[nodiscard]] Json schema_of_count();
 [[nodiscard]] Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> size = {});
@@ -187,7 +185,7 @@ struct FieldType<std::optional<T>> {
     }
 };
 
-/// Counts by name, those above 0.
+/// Counts above 0, by name.
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
 
 /// Refines the field declared last.
@@ -199,11 +197,11 @@ class FieldRef {
     FieldRef& null_when(std::string_view text);
     /// For an optional value: without a value the key is omitted instead of null.
     FieldRef& only_when(std::string_view text);
-    /// Leads the line of its record on the terminal.
+    /// Begins the line of its record on the terminal.
     FieldRef& heads();
-    /// Is said on the terminal, in the place of {} of the format, unless it has no value.
+    /// Prints the value on the terminal in place of {} in the format, unless it has no value.
     FieldRef& said(std::string_view format);
-    /// For a list: prints the sums of its items' counts, or `nothing` when all are 0.
+    /// For a list: prints the sums of its items' counts, or `nothing` if all are 0.
     FieldRef& tallied(std::string_view nothing);
     Field& field() { return owner_->all[index_]; }
 
@@ -222,17 +220,17 @@ inline constexpr auto to_json = []<class T>(const T& value) { return FieldType<T
 /// Adds a field to a record. optionals: the number of optionals around its value.
 Field& start(Fields& fields, std::string_view name, const char* type, Json schema, std::string_view help,
              int optionals);
-/// Adds an object with these fields, or a list of such.
+/// Adds an object with these fields, or a list of such objects.
 FieldRef object_field(Fields& fields, std::string_view name, std::string_view help,
                       std::shared_ptr<const Fields> inner, int optionals, Each each);
 FieldRef list_field(Fields& fields, std::string_view name, std::string_view help,
                     std::shared_ptr<const Fields> inner, int optionals, Each each);
 /// Adds the fields of a nested record: within() of the outer record.
 void embed(Fields& fields, const Fields& inner, const Function<const void*(const void*)>& within);
-/// The fields, owned.
+/// Moves the fields into shared ownership.
 [[nodiscard]] std::shared_ptr<const Fields> shared(Fields&& fields);
 
-/// Adds a member to an object that has none of this name: the names of a record's fields differ.
+/// Adds a member to an object without a member of this name. The names of a record's fields differ.
 void add_member(Json& object, const std::string& name, Json value);
 
 template <class T, class ToJson>
@@ -243,7 +241,8 @@ template <class T, class ToJson>
         return json(value);
 }
 
-/// Sets the key of the field; of an empty value to null, or not at all. json: of a value that is not empty.
+/// Sets the key of the field. An empty value becomes null or is omitted. json: converts a value that is not
+/// empty.
 template <class T, class ToJson>
 void put_value(const Field& field, const T& value, const ToJson& json, Json& object) {
     if constexpr (is_optional<T>) {
@@ -256,7 +255,7 @@ void put_value(const Field& field, const T& value, const ToJson& json, Json& obj
     }
 }
 
-/// The printable value for the terminal; none when it is empty, or neither number nor text.
+/// The printable value for the terminal; none if it is empty, or neither number nor text.
 template <class T>
 [[nodiscard]] std::optional<Printable> told_value(const T& value) {
     if constexpr (is_optional<T>)
@@ -334,7 +333,7 @@ class DeclareFields {
         }
     }
 
-    /// An enumeration: value, name and meaning of each choice.
+    /// Adds an enumeration: value, name and meaning of each choice.
     template <class Get, class E = typename facetmill::fields::Inner<
                              std::remove_cvref_t<std::invoke_result_t<Get, const R&>>>::type>
     FieldRef choice(std::string_view name, Get get, const std::vector<NamedChoice<E>>& choices,
@@ -353,7 +352,7 @@ class DeclareFields {
         return {fields, fields.all.size() - 1};
     }
 
-    /// A nested record, declared by fill(DeclareFields<T>&).
+    /// Adds a nested record, declared by fill(DeclareFields<T>&).
     template <class Get, class Fill>
     FieldRef object(std::string_view name, Get get, std::string_view help, Fill fill) {
         constexpr int optionals = facetmill::fields::optionals<Value<Get>>;
@@ -373,7 +372,7 @@ class DeclareFields {
             });
     }
 
-    /// A list of records, each declared by fill(DeclareFields<item>&).
+    /// Adds a list of records, each declared by fill(DeclareFields<item>&).
     template <class Get, class Fill>
     FieldRef list(std::string_view name, Get get, std::string_view help, Fill fill) {
         constexpr int optionals = facetmill::fields::optionals<Value<Get>>;
@@ -405,7 +404,7 @@ class DeclareFields {
         });
     }
 
-    /// Counts by name (NamedCounts); all names must be among the given names.
+    /// Adds counts by name (NamedCounts). All names must be among the given names.
     template <class Get>
     FieldRef counts(std::string_view name, Get get, const std::vector<std::string>& names,
                     std::string_view help) {
@@ -420,7 +419,7 @@ class DeclareFields {
         return {fields, fields.all.size() - 1};
     }
 
-    /// The terminal lines of the record: a function that returns lines.
+    /// Sets a function that returns the terminal lines of the record.
     template <class Tell>
     void tell(Tell tell) {
         fields.tell = [tell](const void* record) -> std::vector<std::string> {
@@ -444,12 +443,12 @@ class DeclareFields {
     template <class T>
     Field& start(std::string_view name, const char* type,
                  Json schema,             // NOLINT(performance-unnecessary-value-param)
-                 std::string_view help) { // it is moved on, which is not seen in a template
+                 std::string_view help) { // moved from, which the check misses in templates
         return facetmill::fields::start(fields, name, type, std::move(schema), help,
                                         facetmill::fields::optionals<T>);
     }
 
-    /// json: of a value that is not an empty optional.
+    /// json: converts a value that is not an empty optional.
     template <class Get, class ToJson>
     static auto putting(Get get, ToJson json) {
         return [get, json](const Field& self, const void* record, Json& object) {
@@ -459,7 +458,8 @@ class DeclareFields {
     }
 };
 
-/// A getter of records that are one of several structs (std::variant): the member, where the record is an A.
+/// A getter for records that are one of several structs (std::variant): returns the member if the record is
+/// an A.
 template <class A, class T>
 [[nodiscard]] auto where_it_is(T A::*member) {
     return [member](const auto& either) {

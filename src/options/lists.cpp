@@ -21,15 +21,15 @@ class ListReader {
             rows.items.push_back(std::move(*row));
             if (!skip(';')) break;
         }
-        if (at_ < text_.size()) return {}; // a bracket that was not opened
+        if (at_ < text_.size()) return {}; // a closing bracket without an opening bracket
         if (rows.items.size() > 1) return rows;
         Value only = std::move(rows.items[0]);
-        // "[1, 2]" is the list itself, not a list of it.
+        // "[1, 2]" is the list itself, not a list that contains it.
         return only.items.size() == 1 && only.items[0].is_list() ? std::move(only.items[0]) : std::move(only);
     }
 
   private:
-    /// Up to the end, a semicolon or a closing bracket.
+    /// Reads items up to the end, a semicolon or a closing bracket.
     std::optional<Value> items() {
         Value list = Value::list({}, mark_);
         do {
@@ -62,7 +62,7 @@ class ListReader {
     std::size_t at_ = 0;
 };
 
-/// Whether the bracket that opens the text is closed by its last character: not so in "[a],[b]".
+/// Whether the last character closes the text's first bracket; false for "[a],[b]".
 bool is_in_brackets(std::string_view text) {
     if (!text.starts_with('[')) return false;
     std::size_t depth = 0;

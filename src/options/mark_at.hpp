@@ -1,5 +1,5 @@
 #pragma once
-// The location of a problem with an option, and refusals of options.
+// Finds the location of a problem with an option, and adds refusals.
 
 #include "base/refusal.hpp"
 #include "options/value.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// The typed quantities that options take. Each knows its spelling; lengths wait for a scene to become
-// numbers.
+// The typed quantities of options. Each stores its spelling. Lengths become numbers when a scene is
+// available.
 
 #include "base/math/vec.hpp"
 
@@ -17,7 +17,7 @@ struct Length {
         stage,
         part,
         load
-    };                 ///< whose diagonal: the scene entering the stage, the part, the scene as loaded
+    }; ///< the reference of a percentage: the stage's input scene, the part, or the scene as loaded
     double amount = 0; ///< in scene units, in metres, or in percent
     Kind kind = Kind::scene;
     Of of = Of::stage;
@@ -27,14 +27,14 @@ struct Length {
     static Length percent(double amount, Of of = Of::stage);
 };
 
-/// Radians inside, degrees outside.
+/// An angle: radians in the program, degrees for users.
 struct Angle {
     double radians = 0;
     std::string text = "0deg";
     static Angle degrees(double d);
 };
 
-/// A fraction, 0.25 for "25%".
+/// A fraction: 0.25 for "25%".
 struct Ratio {
     double value = 0;
 };
@@ -45,7 +45,7 @@ struct PathText {
     bool operator==(const PathText&) const = default;
 };
 
-/// A bound on a property: exactly (a bare value), or between min and max.
+/// A bound on a property: an exact value (a bare value), or min and max.
 struct Bound {
     std::optional<double> min, max;
     std::optional<bool> truth; ///< for properties that are true or false
@@ -53,7 +53,7 @@ struct Bound {
 
 /// A bound on an angle, in degrees.
 struct AngleBound : Bound {};
-/// A limit on a count: a bare value is the most that may be.
+/// A limit on a count. A bare value is the maximum.
 struct CountLimit : Bound {};
 /// A limit on a count of bytes, which may have a unit.
 struct ByteLimit : Bound {};

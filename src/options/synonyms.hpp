@@ -1,6 +1,5 @@
 #pragma once
-// Hints for words that are no options or properties here, but are in other programs: watertight,
-// target_faces.
+// Hints for names of options and properties in other programs: watertight, target_faces.
 
 #include <string>
 #include <string_view>
@@ -8,10 +7,10 @@
 
 namespace facetmill {
 
-/// What other programs call an option or a property, which has one name here.
+/// Names in other programs for an option or a property.
 struct Synonyms {
     std::string words; ///< separated by blanks
-    std::string how;   ///< what to write, where the name alone does not say it
+    std::string how;   ///< the text to write, if the name alone does not show it
 };
 
 struct KnownName {
@@ -19,22 +18,22 @@ struct KnownName {
     std::vector<Synonyms> synonyms = {};
 };
 
-/// Whether the word is one of those that blanks separate.
+/// Whether the word is one of the blank-separated words.
 bool has_word(std::string_view words, std::string_view word);
 
 /// The known names that other programs call by this word, in alphabetical order.
 [[nodiscard]] std::vector<std::string> options_called(std::string_view word,
                                                       const std::vector<KnownName>& known);
 
-/// The same without names whose value means something else, such as ratio for reduction.
+/// Like options_called, without names whose value has another meaning, such as ratio for reduction.
 [[nodiscard]] std::vector<std::string> options_of_same_value(std::string_view word,
                                                              const std::vector<KnownName>& known);
 
-/// Whether other programs call a report by this word. Here a report is an option of the command.
+/// Whether other programs use this word for a report, which here is an option of the command.
 bool means_report(std::string_view option);
 
-/// A hint for a word that is no known name: the name here, the nearest name, or `otherwise`. Without
-/// `otherwise`: the list of all names.
+/// A hint for an unknown word: the name with this meaning, the nearest name, or `otherwise`. If `otherwise`
+/// is empty, the list of all names.
 [[nodiscard]] std::string hint_for_option(std::string_view word, const std::vector<KnownName>& known,
                                           std::string otherwise = {});
 

@@ -24,7 +24,7 @@ constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um"
                                                                            {"ft", 0.3048},
                                                                            {"inch", 0.0254}}};
 
-/// For the name of a param in the form of other languages: {keep}, $keep, {{keep}}.
+/// A hint for a param written in the syntax of other languages: {keep}, $keep, {{keep}}.
 std::string hint_of_foreign_expression(std::string_view text) {
     const auto is_sign = [](char c) { return c == '$' || c == '{' || c == '}' || c == ' '; };
     if (text.empty() || (text[0] != '$' && text[0] != '{')) return {};
@@ -33,14 +33,14 @@ std::string hint_of_foreign_expression(std::string_view text) {
     const bool name = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-' || c == '.';
     });
-    return name ? fmt::format("the value of a param is written ${{{}}}", text) : "";
+    return name ? fmt::format("write the value of a param as ${{{}}}", text) : "";
 }
 
 } // namespace
 
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint) {
     if (hint.empty() && value.is_scalar()) hint = hint_of_foreign_expression(value.text);
-    if (hint.empty() && value.is_scalar() && value.quoted) hint = "leave the quotes out";
+    if (hint.empty() && value.is_scalar() && value.quoted) hint = "remove the quotes";
     problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()),
                  std::move(hint));
     return false;
@@ -61,14 +61,14 @@ std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_v
 
 namespace {
 
-/// "write true" for the words that other YAML versions take for truths.
+/// The hint "write true" for words that other YAML versions treat as truths.
 std::string hint_of_truth(const Value& value) {
     const std::string word = value.is_scalar() ? lower_case(value.text) : "";
     if (word == "yes" || word == "on" || word == "y") return "write true";
     return word == "no" || word == "off" || word == "n" ? "write false" : "";
 }
 
-/// 20000 for 20k and 20,000.
+/// The intended integer: 20000 for 20k and 20,000.
 std::optional<std::int64_t> integer_meant(const Value& value) {
     if (!value.is_scalar()) return {};
     std::string digits = value.text;
@@ -81,7 +81,7 @@ std::optional<std::int64_t> integer_meant(const Value& value) {
                           : unit == "m" || unit == "M" ? 1e6
                                                        : 0;
     const double number = parts->first * factor;
-    constexpr double most = 1e15; // exact in a double, with room
+    constexpr double most = 1e15; // exact in a double, with a margin
     if (factor == 0 || number != std::floor(number) || std::abs(number) > most) return {};
     return static_cast<std::int64_t>(number);
 }
@@ -91,7 +91,7 @@ std::string hint_of_integer(const Value& value) {
     return meant ? fmt::format("write {}", *meant) : "";
 }
 
-/// The replacement for 10% and 2mm; empty for other values.
+/// A hint with the replacement for 10% or 2mm; empty for other values.
 std::string hint_of_number(const Value& value) {
     const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
     if (!parts) return {};
@@ -101,8 +101,9 @@ std::string hint_of_number(const Value& value) {
     const bool length =
         std::any_of(length_units.begin(), length_units.end(), [&](const auto& u) { return u.first == unit; });
     if (!length) return {};
-    return fmt::format("it has no unit here: write {}; transform: {{unit: {}}} converts a scene to a unit",
-                       to_string(number), unit);
+    return fmt::format(
+        "the number has no unit here: write {}; transform: {{unit: {}}} converts a scene to a unit",
+        to_string(number), unit);
 }
 
 } // namespace
@@ -232,26 +233,26 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     if (!value.is_scalar()) return wrong_type(value, expected, problems);
     const auto parts = number_and_unit(value.text);
     if (!parts || !(parts->second == "%" || parts->second == "pct" || parts->second.empty())) {
-        const auto count = integer_meant(value); // 10k
+        const auto count = integer_meant(value); // accepts, for example, 10k
         return wrong_type(value, expected, problems,
-                          count ? fmt::format("name the option that counts (faces: {})", *count) : "");
+                          count ? fmt::format("name the option for a count (faces: {})", *count) : "");
     }
     const bool percent = !parts->second.empty();
     const bool whole = value.text.find('.') == std::string::npos && parts->first == std::floor(parts->first);
-    if (!percent && whole && parts->first != 0) { // 5e-1 is none
+    if (!percent && whole && parts->first != 0) { // 5e-1 is not a ratio
         const auto hint =
-            parts->first < 0 ? "a ratio is not below 0"
+            parts->first < 0 ? "a ratio cannot be negative"
             : parts->first <= 100
-                ? fmt::format("write {}%, or name the option that counts (faces: {})",
+                ? fmt::format("write {}%, or name the option for a count (faces: {})",
                               parts->first == 1 ? "100" : value.text, value.text)
-                : fmt::format("a ratio has a point or a % (50%); for a count write faces: {}", value.text);
+                : fmt::format("a ratio needs a point or a % (50%); for a count write faces: {}", value.text);
         return wrong_type(value, expected, problems, hint);
     }
     out.value = percent ? parts->first / 100 : parts->first;
     return true;
 }
 std::string OptionType<Ratio>::print(const Ratio& value) { return to_string(value.value * 100) + "%"; }
-/// To a schema 1 and 1.0 are one number, and 1 is refused above: all of it is written 100%.
+/// A schema treats 1 and 1.0 as the same number, and 1 is refused above. The whole is written 100%.
 Json OptionType<Ratio>::schema() {
     return {{"anyOf", Json::array({{{"type", "number"}, {"minimum", 0}, {"exclusiveMaximum", 1}},
                                    {{"type", "string"}, {"pattern", "^[0-9.eE+-]+ *(%|pct)$"}}})}};
@@ -323,7 +324,7 @@ Json OptionType<Angle>::schema() {
     return {{"anyOf", Json::array({{{"type", "number"}},
                                    {{"type", "string"}, {"pattern", "^[0-9.eE+-]+ *(deg|rad)?$"}}})}};
 }
-/// In degrees: ranges of angles are declared in degrees.
+/// The angle in degrees, because ranges of angles are declared in degrees.
 std::optional<double> OptionType<Angle>::magnitude(const Angle& value) { return value.radians * (180 / pi); }
 
 bool OptionType<Vec3>::parse(const Value& value, Vec3& out, Problems& problems) {

@@ -1,5 +1,5 @@
 #pragma once
-// How each C++ type of an option is read from a Value, printed, and described. To add a type, specialise
+// Reads each C++ type of an option from a Value, prints it, and describes it. To add a type, specialise
 // OptionType for it: the YAML parser, the one-liner, help, man page and schema follow.
 
 #include "base/json.hpp"
@@ -36,9 +36,9 @@ enum class OptionKind {
     plane,
     corners
 };
-/// As help and the manual call it: "bool", "integer".
+/// The name in help and the manual: "bool", "integer".
 [[nodiscard]] std::string_view to_string(OptionKind kind);
-/// Whether a value may be a map, or a list, in YAML. (For a group its declaration decides.)
+/// Whether a value may be a map, or a list, in YAML. (For a group, its declaration decides.)
 bool may_be_map(OptionKind kind);
 bool may_be_list(OptionKind kind);
 
@@ -54,9 +54,9 @@ struct Range {
     std::string to_string() const; ///< "0 < x <= 1", or empty
 };
 
-/// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.
+/// Splits "2.5mm" into 2.5 and "mm". None if it does not start with a number.
 [[nodiscard]] std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text);
-/// Adds E-TYPE at the value, "expected ..., found ..."; false.
+/// Adds E-TYPE ("expected ..., found ...") at the value, and returns false.
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint = {});
 
 /// Each specialisation has:
@@ -94,7 +94,7 @@ FACETMILL_OPTION_TYPE(AngleBound, bound, Dimension::angle);
 FACETMILL_OPTION_TYPE(CountLimit, limit, Dimension::count);
 FACETMILL_OPTION_TYPE(ByteLimit, limit, Dimension::bytes);
 
-/// One value or a list of them.
+/// A single value or a list of values.
 template <class T>
 struct OptionType<std::vector<T>> {
     static constexpr OptionKind kind = OptionKind::list;
@@ -121,7 +121,7 @@ struct OptionType<std::vector<T>> {
     static std::optional<double> magnitude(const std::vector<T>&) { return {}; }
 };
 
-/// Unset unless given.
+/// An optional value, unset unless given.
 template <class T>
 struct OptionType<std::optional<T>> {
     static constexpr OptionKind kind = OptionType<T>::kind;
@@ -138,7 +138,7 @@ struct OptionType<std::optional<T>> {
     }
 };
 
-/// The kind of one value, of types whose value may be a list of several; else of the value.
+/// The kind of a single value, for types whose value may be a list; otherwise the kind of the value.
 template <class T>
 inline constexpr OptionKind kind_of_one = OptionType<T>::kind;
 template <class T>

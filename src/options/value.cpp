@@ -79,7 +79,7 @@ std::optional<double> Value::as_real() const {
 
 namespace {
 
-/// The beginning of a text on one line, short enough for a message.
+/// The beginning of a text on a single line, short enough for a message.
 std::string shortened(const std::string& text) {
     constexpr std::size_t longest = 60;
     std::string out;

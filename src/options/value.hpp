@@ -1,6 +1,6 @@
 #pragma once
-// A person's input with its locations: the common tree of the YAML file, the one-liner, -D and --set, from
-// which options are read.
+// User input with its locations: the common tree of YAML files, one-liners, -D and --set, from which options
+// are read.
 
 #include "base/error.hpp"
 #include "base/mark.hpp"
@@ -13,18 +13,17 @@
 
 namespace facetmill {
 
-/// null, a scalar, a list or a map. Maps keep their order and have no duplicate keys.
+/// A null, a scalar, a list or a map. Maps keep their order and have no duplicate keys.
 struct Value {
     enum class Kind { null, scalar, list, map };
     struct Entry;
 
     Kind kind = Kind::null;
-    std::string text;    ///< of a scalar
-    bool quoted = false; ///< a quoted scalar is text, whatever it spells
-    bool deferred =
-        false; ///< known only when the pipeline runs (foreach over parts): any type will do when checking
+    std::string text;      ///< the text of a scalar
+    bool quoted = false;   ///< a quoted scalar is always text
+    bool deferred = false; ///< known only when the pipeline runs (foreach over parts); checks accept any type
     Mark mark;
-    Mark anchor; ///< where an alias's content was written; unknown when this is no alias
+    Mark anchor; ///< where an alias's content was written; unknown if this is not an alias
     std::vector<Value> items;
     std::vector<Entry> entries;
 
@@ -40,15 +39,15 @@ struct Value {
     const Value* find(std::string_view key) const;
     Value* find(std::string_view key);
     const Entry* find_entry(std::string_view key) const;
-    /// Sets or replaces a key of a map (a null becomes a map).
+    /// Sets or replaces a key of a map. A null becomes a map.
     Value& set(std::string key, Value value, Mark key_mark = {});
 
-    // The scalar by the YAML 1.2 core schema; none when it is something else. Quoted scalars are text only.
+    // The scalar by the YAML 1.2 core schema; none for other values. Quoted scalars are only text.
     std::optional<bool> as_bool() const;            ///< true, false
     std::optional<std::int64_t> as_integer() const; ///< decimal, 0x, 0o
-    std::optional<double> as_real() const;          ///< finite only; integers too
+    std::optional<double> as_real() const;          ///< finite numbers, including integers
 
-    /// "the text "abc"", "a list of 3", "a map", "nothing": for messages.
+    /// A description for messages: "the text "abc"", "a list of 3", "a map", "nothing".
     std::string described() const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 constinit thread_local std::size_t most_at_once = std::numeric_limits<std::size_t>::max();
 constinit thread_local std::size_t requests = 0;
 
-/// Like the C++ library's own, with the cap and the page size added; returns null where it would throw.
+/// Like the C++ library's operator new, plus the cap and the page size. Returns null instead of throwing.
 void* requested(std::size_t bytes) noexcept {
     ++requests;
     if (bytes > most_at_once) return nullptr;
@@ -40,7 +40,8 @@ std::size_t allocations_of_thread() { return requests; }
 
 } // namespace facetmill
 
-// All forms but those for aligned memory: AddressSanitizer has its own of each, which must not be mixed.
+// All forms except aligned memory, because AddressSanitizer replaces each form, and its forms must not be
+// mixed with ours.
 void* operator new(std::size_t bytes) { return requested_or_thrown(bytes); }
 void* operator new[](std::size_t bytes) { return requested_or_thrown(bytes); }
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return requested(bytes); }

@@ -6,8 +6,8 @@
 
 namespace facetmill {
 
-/// While it lives, no request of this thread to operator new may be for more bytes: it throws std::bad_alloc.
-/// The innermost counts.
+/// During its lifetime, a request of this thread to operator new for more bytes throws std::bad_alloc. The
+/// innermost cap applies.
 class AllocationCap {
   public:
     explicit AllocationCap(std::size_t bytes);
@@ -19,7 +19,7 @@ class AllocationCap {
     std::size_t outer_;
 };
 
-/// How many requests this thread has made to operator new: work that tests can count.
+/// The number of requests of this thread to operator new, so that tests can count work.
 [[nodiscard]] std::size_t allocations_of_thread();
 
 } // namespace facetmill

@@ -23,7 +23,7 @@ std::optional<std::uint64_t> memory_left() {
     const auto there = available_memory();
     const std::uint64_t limit = limit_of_run;
     if (limit == 0) return there;
-    give_back_freed_memory(); // which is not in use
+    give_back_freed_memory(); // freed memory is not in use
     const std::uint64_t left = limit - std::min(limit, resident_memory());
     return there ? std::min(*there, left) : left;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory there still is, so that what cannot fit is refused before it starts.
+// Available memory, to refuse work that cannot fit before it starts.
 
 #include "platform/available_memory.hpp"
 
@@ -7,24 +7,23 @@
 
 namespace facetmill {
 
-/// available_memory(), and 4 GiB where the system does not say.
+/// available_memory(), or 4 GiB if the system does not report it.
 [[nodiscard]] std::uint64_t memory_there();
 
-/// From now on the process is meant to take no more bytes than that (0: no limit). Call it once, at the
-/// start.
+/// Sets the memory limit of the process in bytes (0: no limit). Call it once, at the start.
 void set_memory_limit(std::uint64_t bytes);
-/// As available_memory, and no more than what that limit leaves beside what is in use.
+/// Like available_memory, but at most the memory limit minus the memory in use.
 [[nodiscard]] std::optional<std::uint64_t> memory_left();
 
-/// The bytes, or what is there where they are more; a few hundred MiB are taken to be there, since to ask the
-/// system costs a tenth of a millisecond.
+/// The minimum of the bytes and the available memory. A few hundred MiB are assumed to be available, because
+/// asking the system takes a tenth of a millisecond.
 [[nodiscard]] std::uint64_t at_most_memory_there(std::uint64_t bytes);
 
-/// Whether so many bytes may be more than are there; fewer are taken to be there.
+/// Whether this many bytes may exceed the available memory. Small amounts are assumed to be available.
 bool is_much_memory(double bytes);
 
-/// Throws limit (E-MEMORY) when bytes are more than are available: "WHAT needs about 3.2 GiB, 1.9 GiB are
-/// available".
+/// Throws a limit error (E-MEMORY) if the bytes exceed the available memory: "WHAT needs about 3.2 GiB, 1.9
+/// GiB are available".
 void require_memory(double bytes, const std::string& what, const std::string& hint);
 
 } // namespace facetmill

@@ -21,27 +21,28 @@ namespace {
 /// not be reported.
 std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global_control>;
 int count = 0;
-/// For more threads than cores: loops of threads in TBB's own arenas, which have only a thread for each
-/// core. Never destroyed, like `control`.
+/// An arena for more threads than cores, because TBB's own arenas have only a thread per core. Never
+/// destroyed, like `control`.
 std::unique_ptr<tbb::task_arena>& wide = *new std::unique_ptr<tbb::task_arena>;
 
 /// TBB first allocates memory under locks that it needs again to report a failure, which would deadlock
 /// (oneTBB 2022). So its allocator is tested first, without these locks, for pieces of its usual sizes, and
-/// the system for more than their total. TBB then starts, and does not end.
+/// the system for more than their total. TBB then starts, and never ends.
 void begin_tbb() {
     static tbb::task_arena* kept = nullptr;
     if (kept) return;
     tbb::cache_aligned_allocator<std::byte> memory;
     for (std::size_t bytes = 64; bytes <= std::size_t{1} << 20; bytes *= 2)
         memory.deallocate(memory.allocate(bytes), bytes);
-    void* volatile room = ::operator new (std::size_t{8} << 20); // volatile: it is not left out
+    void* volatile room =
+        ::operator new (std::size_t{8} << 20); // volatile, so that the compiler does not remove it
     ::operator delete(room);
     kept = new tbb::task_arena(1);
     kept->initialize();
 }
 
-/// Whether a loop of this thread would have fewer threads than are wanted. An arena of one thread is meant
-/// so: a job of a batch that may have no more.
+/// Whether a loop of this thread would have fewer threads than requested. An arena with a single thread is
+/// intended, for a job of a batch.
 bool is_in_narrow_arena() {
     const int here = tbb::this_task_arena::max_concurrency();
     return wide && here > 1 && here < count;
@@ -84,7 +85,7 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
         std::this_thread::get_id(); // only the calling thread reports, so progress never falls
     std::atomic<std::size_t> done = 0;
     {
-        const ProgressScope silent(nullptr); // for what the chunks do
+        const ProgressScope silent(nullptr); // silences progress reports of the chunks
         run([&](std::size_t c) {
             work(c);
             const std::size_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;

@@ -1,7 +1,6 @@
 #pragma once
-// Loops over fixed chunks: parallel, and with the same result for any number of threads. Chunk boundaries
-// depend on the size only, and reductions join the chunks in index order, so floating-point sums never
-// change.
+// Parallel loops over fixed chunks, with the same result for any number of threads. Chunk boundaries depend
+// only on the size, and reductions join the chunks in index order, so floating-point sums never change.
 
 #include "parallel/storage.hpp"
 
@@ -17,8 +16,8 @@
 
 namespace facetmill {
 
-/// Sets the number of threads for everything from now on; 0: all cores. Call it once, at the start. Throws
-/// std::bad_alloc when there is no room for the scheduler.
+/// Sets the number of threads of the process; 0: all cores. Call it once, at the start. Throws
+/// std::bad_alloc if memory for the scheduler is short.
 void set_threads(int count);
 [[nodiscard]] int threads();
 
@@ -48,7 +47,7 @@ void parallel_for(std::size_t n, Body&& body, std::size_t chunk = default_chunk)
         chunk);
 }
 
-/// map(begin, end) of every chunk, joined from left to right: join(join(first, second), third)...
+/// Joins map(begin, end) of every chunk from left to right: join(join(first, second), third) ...
 template <class T, class Map, class Join>
 T parallel_reduce(std::size_t n, T identity, Map&& map, Join&& join, std::size_t chunk = default_chunk) {
     std::vector<T> parts((n + chunk - 1) / chunk, identity);
@@ -59,7 +58,8 @@ T parallel_reduce(std::size_t n, T identity, Map&& map, Join&& join, std::size_t
     return all;
 }
 
-/// Replaces counts by their running sum from 0 and returns the total: {3, 1, 2} -> {0, 3, 4}, 6.
+/// Replaces counts by their running sum from 0, and returns the total: {3, 1, 2} becomes {0, 3, 4}, with
+/// total 6.
 template <class T>
 T exclusive_scan(std::vector<T>& counts) {
     T sum = 0;
@@ -72,13 +72,15 @@ struct KeyedPlace {
     std::uint64_t key;
     std::uint32_t place;
 };
-/// Sorts by key, equal keys by index: the part of radix_sort that is compiled once.
+/// Sorts by key, then by index. This part of radix_sort is compiled once.
 void sort_few(std::span<KeyedPlace> places);
 
-/// Sorts items by a 64-bit key (key(item), below 2^key_bits), stable: parallel radix sort; few are compared.
+/// Sorts items by a 64-bit key (key(item), below 2^key_bits). Stable; a parallel radix sort, or a comparison
+/// sort for few items.
 template <class T, class Key>
 void radix_sort(std::vector<T>& items, Key&& key, int key_bits = 64) {
-    constexpr std::size_t few = 256; // to go through the buckets of all digits is more work than to compare
+    constexpr std::size_t few =
+        256; // below this, visiting the buckets of all digits is slower than comparing
     if (items.size() <= few) {
         std::array<KeyedPlace, few> places;
         for (std::size_t i = 0; i < items.size(); ++i)

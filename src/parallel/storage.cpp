@@ -8,7 +8,7 @@
 namespace facetmill {
 
 void prefault(void* memory, std::size_t bytes) {
-    constexpr std::size_t piece = std::size_t{2} << 20; // a large page
+    constexpr std::size_t piece = std::size_t{2} << 20; // size of a large page
     if (bytes < piece) return;
     const std::size_t page = page_size();
     const auto start = reinterpret_cast<std::uintptr_t>(memory);

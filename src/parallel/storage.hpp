@@ -1,17 +1,17 @@
 #pragma once
-// Large arrays whose pages come from the system by all threads at once. A vector that grows by resize alone
-// takes its pages one fault at a time on one thread, which costs more than the work on many of them.
+// Allocates pages of large arrays on all threads at once. With a plain resize, a single thread would take
+// page fault after page fault, which often takes longer than the work on the array.
 
 #include <cstddef>
 #include <vector>
 
 namespace facetmill {
 
-/// Asks the system for the pages of the memory, in parallel, before it is written. Changes no contents; does
-/// nothing where the system cannot.
+/// Requests the pages of the memory from the system, in parallel, before it is written. Does not change
+/// contents, and does nothing if the system does not support it.
 void prefault(void* memory, std::size_t bytes);
 
-/// v.reserve(n), the pages of what is not in use yet asked for in parallel.
+/// v.reserve(n), with the unused pages requested in parallel.
 template <class T>
 void reserve_large(std::vector<T>& v, std::size_t n) {
     if (n <= v.size()) return;
@@ -19,7 +19,7 @@ void reserve_large(std::vector<T>& v, std::size_t n) {
     prefault(v.data() + v.size(), (n - v.size()) * sizeof(T));
 }
 
-/// v.resize(n), and v.resize(n, value), likewise.
+/// v.resize(n) and v.resize(n, value), with new pages requested in parallel.
 template <class T>
 void resize_large(std::vector<T>& v, std::size_t n) {
     reserve_large(v, n);

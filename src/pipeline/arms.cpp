@@ -139,7 +139,8 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
                    (variable.value.is_list() && variable.value.items.empty())) {
             problems_.add(variable.value.mark, "E-FOREACH",
                           fmt::format("'{}' needs a list of values, found {}", variable.key,
-                                      variable.value.described()));
+                                      variable.value.described()),
+                          fmt::format("give values: foreach: {{{}: [50%, 25%]}}", variable.key));
         }
     }
     if (over_parts && !has_scene) {

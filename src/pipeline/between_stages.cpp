@@ -35,7 +35,7 @@ void require_finite(const Scene& scene) {
     if (const auto what = not_finite(scene))
         throw Error(ErrorKind::stage, "E-RANGE",
                     fmt::format("{} came out beyond 1.8e308, the largest number", *what),
-                    "bring the scene near 1 in size first: transform: {scale: ...}");
+                    "bring the scene near 1 in size before: transform: {scale: 1e-150}");
 }
 
 void check_invariants(const Step& step, const Scene& scene) {

@@ -42,18 +42,18 @@ std::size_t steps_on_cells(const Steps& steps, const std::string& what, const st
                             way_out, fmt::join(stages_on_cells(), ", ")),
                 step.where);
         if (step.when && step.when->known && !*step.when->known)
-            refuse_cells(what, fmt::format("'{}' is skipped", step.name), "leave the step out, or " + way_out,
+            refuse_cells(what, fmt::format("'{}' is skipped", step.name), "remove the step, or " + way_out,
                          step.where);
         if (const char* key = key_in_the_way(step))
-            refuse_cells(
-                what, fmt::format("'{}' has the key '{}', which looks at a mesh in memory", step.name, key),
-                "leave it out, or " + way_out, step.where);
+            refuse_cells(what,
+                         fmt::format("'{}' has the key '{}', which needs the mesh in memory", step.name, key),
+                         "leave it out, or " + way_out, step.where);
         if (const auto why = step.stage->why_not_on_cells())
-            refuse_cells(what, fmt::format("{}: {}", step.name, *why), "leave that option out, or " + way_out,
+            refuse_cells(what, fmt::format("{}: {}", step.name, *why), "remove that option, or " + way_out,
                          step.where);
         if (step.info->loads != (i == 0))
-            refuse_cells(what, "one load comes first", "load all files in one step, or " + way_out,
-                         step.where);
+            refuse_cells(what, "the pipeline must begin with a single load",
+                         "load all files in one step, or " + way_out, step.where);
         if (step.info->ends_cells) return i + 1;
     }
     return steps.size();
@@ -72,7 +72,7 @@ struct Faces {
     std::uint64_t memory() const { return cells::memory_in_core(most); }
     std::string needs(const CellSettings& settings) const {
         const std::string growth = most > read ? fmt::format(", and the {} they become,", grouped(most)) : "";
-        return fmt::format("about {} faces{} need about {} in memory, --memory gives {}", grouped(read),
+        return fmt::format("about {} faces{} need about {} of memory, but --memory allows {}", grouped(read),
                            growth, sized(memory()), sized(settings.memory));
     }
 };
@@ -119,8 +119,8 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     const std::string what = settings.when == When::always ? "--partition always" : faces.needs(settings);
     const std::string way_out = settings.when == When::always
                                     ? "use --partition auto"
-                                    : "give more memory, or --partition never to try it all the same";
-    if (inputs.empty()) refuse_cells(what, "cells are made of files", way_out, {});
+                                    : "give more memory, or use --partition never to try in memory anyway";
+    if (inputs.empty()) refuse_cells(what, "only files can be divided into cells", way_out, {});
     for (const PlannedFile& file : inputs)
         if (const auto why = cells::why_not_streamed(file.path))
             refuse_cells(what, fmt::format("'{}' cannot be read in pieces: {}", file.path.string(), *why),
@@ -140,13 +140,13 @@ void require_jobs(const Plan& plan, const CellPlan& cells) {
     const Step& last = plan.steps[cells.steps - 1];
     if (last.info->name != "simplify")
         refuse_jobs(
-            fmt::format("'{}' works on cells by itself: only what simplify does is divided", last.name),
-            "facetmill run is one job for all of it", last.where);
+            fmt::format("'{}' works on cells by itself: only simplify can be divided into jobs", last.name),
+            "use facetmill run, which is a single job", last.where);
     for (std::size_t i = 1; i + 1 < cells.steps; ++i) {
         const Step& step = plan.steps[i];
         if (!step.info->checks && !step.info->tells && !step.info->moves)
             refuse_jobs(fmt::format("each job would do '{}' again before it simplifies", step.name),
-                        "write its result by a run of its own, and load that", step.where);
+                        "write its result in a separate run, and load that", step.where);
     }
 }
 

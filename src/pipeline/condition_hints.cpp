@@ -63,7 +63,7 @@ std::optional<MeantBound> bound_of(std::string_view name, std::string_view op, s
     return MeantBound{meant, std::move(bound)};
 }
 
-/// A property alone: "closed", "not closed".
+/// The bound for only a property: "closed", "not closed".
 std::optional<MeantBound> property_alone(std::string_view text) {
     bool is = true;
     for (const std::string_view no : {"not ", "!"})
@@ -91,7 +91,7 @@ std::optional<MeantCondition> of_property(std::string_view name, std::string_vie
                           fmt::format("write when: {{{}: {}}}", meant->property->name, shown(*meant))};
 }
 
-/// A single condition: a comparison with the property on either side, or a property alone.
+/// The bound for a single condition: a comparison with the property on either side, or only a property.
 std::optional<MeantBound> one_bound(std::string_view text) {
     const auto found = find_operator(text);
     if (!found) return property_alone(text);

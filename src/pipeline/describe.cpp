@@ -31,7 +31,7 @@ std::string extras(const Step& step) {
     std::string out;
     if (!step.only.patterns.empty()) out += fmt::format("  only [{}]", list_of(step.only.patterns));
     if (step.when)
-        out += step.when->known ? (*step.when->known ? "" : "  skipped: when does not hold")
+        out += step.when->known ? (*step.when->known ? "" : "  skipped: its condition (when) is false")
                                 : fmt::format("  when {{{}}}", assertions_text(step.when->predicates));
     if (step.ensure) out += fmt::format("  ensure {{{}}}", contract_text(*step.ensure));
     if (step.join) out += "  join";
@@ -45,7 +45,7 @@ Json lengths_json(const Headers::Lengths& lengths) {
     return all;
 }
 
-/// "  (amplitude: 0.1in is 2.54 mm)".
+/// The lengths as text: "  (amplitude: 0.1in is 2.54 mm)".
 std::string lengths_text(const Headers& headers, const Step& step) {
     const auto lengths = headers.lengths.find(step.path);
     if (lengths == headers.lengths.end()) return "";
@@ -176,7 +176,7 @@ const InputHeader* header_of(const Headers& headers, const std::filesystem::path
     return nullptr;
 }
 
-/// "  (glb, in m, y up; parts: hull, mast)".
+/// The header as text: "  (glb, in m, y up; parts: hull, mast)".
 std::string header_text(const Headers& headers, const std::filesystem::path& path) {
     const InputHeader* input = header_of(headers, path);
     if (!input) return "";

@@ -128,9 +128,9 @@ class Builder : public YAML::EventHandler {
         Value value;
         YAML::anchor_t anchor = 0;
         bool flow = false;
-        std::optional<Value> key;                 ///< of a map: key of the next value
-        std::map<std::string, std::size_t> index; ///< of a map: key -> entry
-        std::vector<Value> merges;                ///< of a map: values of <<
+        std::optional<Value> key;                 ///< in a map: key of the next value
+        std::map<std::string, std::size_t> index; ///< in a map: index of the entry by key
+        std::vector<Value> merges;                ///< in a map: values of <<
     };
     struct Anchored {
         Value value;
@@ -170,7 +170,7 @@ class Builder : public YAML::EventHandler {
         throw Stop{};
     }
 
-    /// mark: of the node, which starts with the tag.
+    /// mark: the node's mark, which starts with the tag.
     void apply_tag(const std::string& tag, Value& value, const YAML::Mark& mark) {
         constexpr std::string_view core = "tag:yaml.org,2002:";
         const std::string_view name = tag.starts_with(core) ? std::string_view(tag).substr(core.size()) : "";
@@ -259,7 +259,7 @@ class Builder : public YAML::EventHandler {
         if (key.text == "<<" && !key.quoted) {
             value.mark = key.mark;
             if (!frame.merges.empty())
-                problems_.add(key.mark, "E-DUPLICATE", "the key '<<' is there twice",
+                problems_.add(key.mark, "E-DUPLICATE", "the key '<<' occurs twice",
                               "several maps are merged by <<: [*a, *b]");
             frame.merges.push_back(std::move(value));
             return;
@@ -269,7 +269,7 @@ class Builder : public YAML::EventHandler {
             frame.value.entries.push_back({std::move(key.text), key.mark, std::move(value)});
             return;
         }
-        problems_.add(key.mark, "E-DUPLICATE", fmt::format("the key '{}' is there twice", key.text),
+        problems_.add(key.mark, "E-DUPLICATE", fmt::format("the key '{}' occurs twice", key.text),
                       fmt::format("the first is at {}", to_string(frame.value.entries[at->second].key_mark)));
     }
 

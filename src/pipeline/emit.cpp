@@ -50,7 +50,7 @@ std::string scalar(const std::string& text, bool quoted) {
     return quoted || !plain(text) ? in_quotes(text) : text;
 }
 
-/// In braces, on one line.
+/// The value in braces, on a single line.
 std::string flow(const Value& value) {
     std::string out;
     switch (value.kind) {

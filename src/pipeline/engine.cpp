@@ -40,7 +40,7 @@ bool is_skipped(Engine& run, const Step& step, const Scene& scene) {
     if (!step.when) return false;
     if (step.when->known) return !*step.when->known;
     report::StageRecord none; // the step has a record only if it runs
-    const auto results = judged(run, step.when->predicates, step, scene, scene.bounds(), none);
+    const auto results = judged(run, step.when->predicates, step, scene, io::drawn_bounds(scene), none);
     return !std::all_of(results.begin(), results.end(), [](const auto& check) { return check.passed; });
 }
 
@@ -102,7 +102,7 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     const Stopwatch watch;
     const ProgressScope share(run.settings.progress);
     const bool done = run.failures.guarded(step.where, what, [&] {
-        Context context(run.state, stage, step.only, stage.before->bounds, step.where);
+        Context context(run.state, stage, step.only, io::drawn_bounds(scene), step.where);
         if (!step.only.patterns.empty() && !step.info->loads) warn_of_empty_selection(step, scene, context);
         scene = perform(*step.stage, std::move(scene), context, surfaces);
         require_finite(scene);
@@ -111,7 +111,7 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     stage.seconds = watch.seconds();
     if (!done) return false;
     stage.after = report::brief_of(scene);
-    if (step.info->loads) run.state.load_diagonal = diagonal(stage.after->bounds);
+    if (step.info->loads) run.state.load_diagonal = diagonal(io::drawn_bounds(scene));
     if (step.info->loads && run.keeps_loaded)
         run.state.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
     run.cache.keep(step, flow, run.state, stage, before);
@@ -138,6 +138,28 @@ bool run_arm(Engine& run, const Step& step, const Arm& arm, SceneState& inside) 
     return done;
 }
 
+/// Gives each arm the trail of the scene that enters, and collects the files that the arms write.
+class ArmTrails {
+  public:
+    explicit ArmTrails(RunState& state) : state_(state), entered_(state.trail) {}
+    void arm_done() {
+        auto& all = state_.trail.written;
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(entered_.written.size());
+        written_.insert(written_.end(), std::make_move_iterator(first), std::make_move_iterator(all.end()));
+        state_.trail = entered_;
+    }
+    void finish() {
+        auto& all = state_.trail.written;
+        all.insert(all.end(), std::make_move_iterator(written_.begin()),
+                   std::make_move_iterator(written_.end()));
+    }
+
+  private:
+    RunState& state_;
+    SceneTrail entered_;
+    std::vector<WrittenScene> written_;
+};
+
 bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
     Scene& scene = flow.scene;
     std::vector<std::string> names;
@@ -163,7 +185,9 @@ bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
 
     std::vector<std::vector<NamedScene>> results(scene.parts.size());
     bool all_done = true;
+    ArmTrails trails(run.state);
     for (const auto& arm : arms) {
+        run.state.number_scene(true); // one part of a fit scene is fit
         const std::size_t p = parts[arm.part.value_or(0)];
         SceneState inside;
         inside.without_cache = flow.without_cache;
@@ -173,10 +197,13 @@ bool run_part_arms(Engine& run, const Step& step, SceneState& flow) {
         inside.scene.up = scene.up;
         if (!run.guarded(step, [&] { inside.scene.parts.push_back(scene.parts[p]); })) return false;
         all_done = run_arm(run, step, arm, inside) && all_done;
+        trails.arm_done();
         if (step.join) results[p].push_back({arm.name, std::move(inside.scene)});
     }
+    trails.finish();
     if (!step.join) return true;
     if (!all_done) return false;
+    run.state.number_scene(false);
     scene = with_parts_replaced(std::move(scene), std::move(results));
     flow.replaced();
     return true;
@@ -187,19 +214,23 @@ bool run_arms(Engine& run, const Step& step, SceneState& flow, bool needed) {
     std::vector<NamedScene> results;
     bool all_done = true;
     if (!run.guarded(step, [&] { run.cache.before_arms(flow, step.arms); })) return false;
+    ArmTrails trails(run.state);
     for (const auto& arm : step.arms) {
         const bool moved = &arm == &step.arms.back() && (step.join || !needed);
         SceneState inside;
         if (!run.guarded(step, [&] { inside = moved ? std::move(flow) : flow.branched_off(); })) return false;
         all_done = run_arm(run, step, arm, inside) && all_done;
+        trails.arm_done();
         if (moved)
             flow.spent_before_branch = inside.spent_before_branch;
         else
             flow.spend(inside.spent_before_branch); // no longer available to the next arm
         if (step.join) results.push_back({arm.name, std::move(inside.scene)});
     }
+    trails.finish();
     if (!step.join) return true; // the input scene continues, whatever the branches did
     if (!all_done) return false;
+    run.state.number_scene(false);
     flow.scene = joined(std::move(results));
     flow.replaced();
     return true;
@@ -218,7 +249,7 @@ std::optional<bool> run_step(Engine& run, const Step& step, SceneState& flow, bo
     std::size_t checked = run.record().checks.size();
     std::shared_ptr<const Surface> reference;
     if (!run.guarded(step, [&] { reference = reference_of(run, step, flow.scene); })) return {};
-    const Box entered = step.ensure ? flow.bounds() : Box{};
+    const Box entered = step.ensure ? flow.drawn_bounds() : Box{};
     if (step.kind == Step::Kind::stage) {
         const auto source = [&](report::StageRecord& stage) {
             return recall_or_perform(run, step, flow, stage);
@@ -282,6 +313,7 @@ bool Engine::run_stage(const Step& step, SceneState& flow,
                 .first_check = record().checks.size()};
     emit(event, &flow);
     const bool done = source(stage);
+    if (done && !step.info->keeps_scene) state.number_scene(step.info->moves);
     event.kind = done ? Event::Kind::after : Event::Kind::failed;
     emit(event, &flow);
     for (const auto& warning : stage.warnings) failures.warn(warning);

@@ -18,18 +18,19 @@ struct Event {
         failed,   ///< not finished
         judged,   ///< the contract of a stage or of a branch has been checked
         arm,      ///< an arm of a branch begins
-        arm_done, ///< ... and ends
+        arm_done, ///< an arm of a branch ends
         ended     ///< all steps are done
     };
     Kind kind;
-    const Step* step = nullptr;                    ///< null at the end
-    report::StageRecord* stage = nullptr;          ///< of a stage
-    std::size_t first_output = 0, first_check = 0; ///< of the stage, index in the record
+    const Step* step = nullptr;           ///< null at the end
+    report::StageRecord* stage = nullptr; ///< record of a stage
+    std::size_t first_output = 0,
+                first_check = 0; ///< first output and check of the stage, as indices in the record
     const SceneState::Left* left = nullptr;
     const Scene* scene = nullptr;
 };
 
-/// An observer of one kind of event.
+/// An observer of a kind of event.
 struct Watch {
     Event::Kind kind;
     /// The purpose of the scene in words: the engine then fetches the scene first, and an exception of `call`

@@ -116,7 +116,7 @@ class Resolver {
         }
         if (!found->is_scalar() && !found->is_null()) {
             fail(v, inside, "E-EXPRESSION",
-                 fmt::format("'{}' is {}, which cannot stand inside a text", inside, found->described()));
+                 fmt::format("'{}' is {}, which cannot be used inside a text", inside, found->described()));
             out.deferred = true;
             return;
         }

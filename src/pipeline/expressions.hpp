@@ -21,9 +21,9 @@ using ReadComparable = std::function<std::optional<Comparable>(const Value&, Pro
 struct Variable {
     std::string name;
     Value value;                       ///< null: an optional parameter without a value
-    std::optional<std::int64_t> index; ///< of a foreach: the index of this value, from 0
+    std::optional<std::int64_t> index; ///< in a foreach: the index of this value, from 0
     bool from_file = false;            ///< a name found in a file: made safe for use in file names
-    ReadComparable comparable = {};    ///< of a parameter: parses the other side of a comparison by its type
+    ReadComparable comparable = {};    ///< for a parameter: parses the other side of a comparison by its type
 };
 
 using Scope = std::vector<Variable>;

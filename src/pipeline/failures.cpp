@@ -41,8 +41,9 @@ bool Failures::judge_checks(std::size_t first) {
         if (check.passed) continue;
         const std::string locations = report::locations_text(check);
         const std::string text = fmt::format(
-            "'{}' must be {}, found {}{}{}", check.name, check.expected, report::found_text(check),
+            "'{}' must be {}, found {}{}{}{}", check.name, check.expected, report::found_text(check),
             check.part.empty() ? "" : fmt::format(" in part '{}'", check.part),
+            check.file.empty() ? "" : fmt::format(" in '{}'", check.file),
             locations.empty() ? "" : "; " + locations);
         if (check.severity == Severity::error) {
             all_hold = false;

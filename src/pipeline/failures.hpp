@@ -10,7 +10,7 @@
 
 namespace facetmill::pipeline {
 
-/// Adds failures to the record of a run, which outlives it, according to the settings.
+/// Adds failures to the record of a run, according to the settings. The record must outlive this object.
 class Failures {
   public:
     /// allowed: ids of warnings that are neither reported nor failures.

@@ -211,7 +211,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         const bool spelled_alike = io::identity(first.path).string() == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
                      spelled_alike ? fmt::format("'{}' is written twice", file.path.string())
-                                   : fmt::format("'{}' and '{}' are one file where case does not count",
+                                   : fmt::format("'{}' and '{}' are the same file if case is ignored",
                                                  first.path.string(), file.path.string()),
                      hint_of_duplicate(same, file));
     }
@@ -300,7 +300,7 @@ bool has_effect(const Steps& steps) {
 std::optional<Diagnostic> without_effect(const Plan& plan) {
     if (plan.steps.empty() || !plan.reports.empty() || has_effect(plan.steps)) return {};
     Diagnostic warning{Severity::warning, "W-NOTHING",
-                       "the pipeline writes nothing and checks nothing, so nothing is left of what it does",
+                       "the pipeline writes nothing and checks nothing, so its result would be lost",
                        plan.steps.back().where,
                        "end it with write: FILE, or with validate, or ask for a --report"};
     if (is_allowed(warning, plan.allowed)) return {};

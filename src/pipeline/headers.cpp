@@ -102,7 +102,7 @@ class Walk {
     explicit Walk(const Folders& places) : places_(places) {}
     Headers headers;
 
-    /// `unit`: of the input scene; empty: unknown.
+    /// unit: the unit of the input scene; empty: unknown.
     void steps(const Steps& all, std::optional<Unit> unit) {
         for (const auto& step : all) {
             if (step.when && step.when->known == false) continue;
@@ -177,7 +177,7 @@ class Walk {
         io::ImageNames names(io::stem_of_neighbours(path),
                              all ? io::ImageNames::Spelling::plain : io::ImageNames::Spelling::kept);
         std::map<std::string, std::pair<fs::path, bool>>
-            copies; // by digest: its name, and whether it is written
+            copies; // for each digest, the image's name and whether it is written
         const auto copy = [&](const io::NamedImage& image, bool used) {
             if (files.copies && !files.copies(image)) return;
             const auto [place, fresh] = copies.try_emplace(image.digest);

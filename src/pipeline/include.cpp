@@ -61,7 +61,7 @@ const Value* Planner::fragment(const fs::path& file, const Mark& where) {
     if (found.any_errors()) return nullptr;
     if (!document.is_map()) {
         problems_.add(document.mark, "E-TYPE",
-                      fmt::format("what is included is a map with facetmill and stages, found {}",
+                      fmt::format("an included file is a map with facetmill and stages, found {}",
                                   document.described()),
                       "facetmill: 1\n    stages:\n      - relax: 3");
         return nullptr;
@@ -105,7 +105,7 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
     const Value path = resolved(entry.value, scope, problems_);
     PathText text;
     if (!OptionType<PathText>::parse(path, text, problems_) || is_deferred(path)) {
-        has_scene = true; // it may load one, so do not report missing scenes
+        has_scene = true; // the included file may load a scene, so do not report missing scenes
         return {};
     }
     const fs::path file = settings_.places.input(text.text).lexically_normal();
@@ -124,7 +124,7 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
     const Scope own = fragment_params(*document, given, settings_, problems_);
     const Value* stages = document->find("stages");
     if (!stages || stages->is_null()) {
-        problems_.add(document->mark, "E-MISSING", "what is included needs stages", "stages: [{relax: 3}]");
+        problems_.add(document->mark, "E-MISSING", "an included file needs stages", "stages: [{relax: 3}]");
         return {};
     }
     const std::string name = unique_name(file.stem().string(), position.prefix, {});

@@ -31,12 +31,21 @@ const RegisterMessages pipeline_messages{
     {"E-INVARIANT",
      "A stage produced a mesh that breaks an invariant. Only a hidden option enables this check.",
      "Report this bug with the pipeline and the input.", ErrorKind::bug},
+    {"E-LIMITS",
+     "`validate: {limits: ...}` limits the bytes, draw calls or pixels of written files, and no `write` "
+     "comes "
+     "before it.",
+     "Put `write` before `validate`. If the check fails, the file does not appear. If `write` has a "
+     "condition, give "
+     "`validate` the same.",
+     {ErrorKind::usage, ErrorKind::stage}},
     {"E-NAME", "A name is already in use, or contains characters that are not allowed.",
      "Choose a unique name without `. / [ ]`.", ErrorKind::usage},
     {"E-ORDER", "A stage needs a scene, but no earlier stage loads one.", "Begin with `load` or `generate`.",
      ErrorKind::usage},
     {"E-PARAM", "A param is not declared, has no value, or has an invalid declaration.",
-     "Set it with `-D name=value`. Run `facetmill check` to see the declaration.", ErrorKind::usage},
+     "Set it with `-D name=value`. Run `facetmill plan PIPELINE` to list the params with their values.",
+     ErrorKind::usage},
     {"E-REQUIRES", "The pipeline requires another release of facetmill.",
      "Install a release that its key `requires` allows.", ErrorKind::usage},
     {"E-SAVE", "The one-liner cannot be saved, because its inputs are known only at run time.",

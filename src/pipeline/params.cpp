@@ -63,10 +63,10 @@ struct ParamOptions {
     bool required = false;
     std::optional<std::string> min, max;
     std::vector<std::string> choices;
-    Type of = Type::list; ///< of each value of a list; list: any type
+    Type of = Type::list; ///< the type of each value of a list; list: any type
 
     bool is_list() const { return type == Type::list; }
-    /// The type of the value, or of each value of a list; list: any type.
+    /// The type of the value, or the type of each value of a list; list: any type.
     Type single() const { return is_list() ? of : type; }
 };
 
@@ -126,7 +126,7 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
 }
 
 /// Converts a path from the command line, or from a file in that folder, to the pipeline file's convention.
-/// The result is relative to the pipeline if that is the same file, else absolute.
+/// The result is relative to the pipeline if that is the same file, otherwise absolute.
 std::string from_working_directory(const std::string& text, const fs::path& folder_of_text,
                                    const PlanSettings& settings) {
     const fs::path given(text);
@@ -175,7 +175,7 @@ class Params {
     void add(const Value::Entry& entry, Json& json) {
         if (!is_variable_name(entry.key))
             problems_.add(entry.key_mark, "E-PARAM", fmt::format("'{}' cannot name a parameter", entry.key),
-                          "a name is made of letters, digits, _ and -, and begins with a letter");
+                          "a name consists of letters, digits, _ and -, and begins with a letter");
         static const Declaration declaration = param_declaration();
         ParamOptions options;
         const bool good = declaration.parse(entry.value, &options, entry.key, problems_, {"default"}) &&
@@ -356,8 +356,8 @@ class Params {
             std::find(options.choices.begin(), options.choices.end(), value.text) != options.choices.end())
             return true;
         problems.add(value.mark, "E-CHOICE",
-                     fmt::format("'{}' is one of {}, found {}", entry.key, fmt::join(options.choices, ", "),
-                                 value.described()),
+                     fmt::format("'{}' must be one of {}, found {}", entry.key,
+                                 fmt::join(options.choices, ", "), value.described()),
                      did_you_mean(value.text, options.choices));
         return false;
     }
@@ -453,7 +453,7 @@ Scope fragment_params(const Value& document, const Value& given, const PlanSetti
     for (const auto& entry : given.entries)
         if (!find_variable(all.scope, entry.key))
             problems.add(entry.key_mark, "E-PARAM",
-                         fmt::format("what is included has no parameter '{}'", entry.key),
+                         fmt::format("the included file has no parameter '{}'", entry.key),
                          no_such_param(entry.key, all.scope));
     return std::move(all.scope);
 }

@@ -11,7 +11,7 @@ namespace facetmill::pipeline {
 [[nodiscard]] Scope read_params(const Value* params, const PlanSettings& settings, Json& json,
                                 Problems& problems);
 
-/// The same for an included document: its params with the given values (a map), else their defaults.
+/// The values of an included document: its params with the given values (a map), otherwise their defaults.
 [[nodiscard]] Scope fragment_params(const Value& document, const Value& given, const PlanSettings& settings,
                                     Problems& problems);
 

@@ -163,6 +163,31 @@ std::vector<std::string> read_allowed(const Value* allow, const PlanSettings& se
     return allowed;
 }
 
+/// Adds E-LIMITS for each step that judges written files before any `write`. written: a write came before the
+/// steps. Returns true if one came before their end.
+bool check_judged_files(const Steps& steps, bool written, Problems& problems) {
+    for (const Step& step : steps) {
+        if (step.when && step.when->known && !*step.when->known) continue;
+        if (step.kind != Step::Kind::stage) {
+            bool any = written;
+            for (const Arm& arm : step.arms) any |= check_judged_files(*arm.steps, written, problems);
+            written = any;
+            continue;
+        }
+        written |= step.info->writes_scene;
+        const std::string option = step.stage->judges_written();
+        if (option.empty() || written) continue;
+        const auto dot = option.find('.');
+        const Value* group = step.given.find(option.substr(0, dot));
+        const Value* value = group ? group->find(option.substr(dot + 1)) : nullptr;
+        problems.add(value ? value->mark : step.where, "E-LIMITS",
+                     fmt::format("{}: '{}' limits written files, and no file is written before it",
+                                 step.info->name, option),
+                     fmt::format("put write: out.glb before {}", step.name));
+    }
+    return written;
+}
+
 } // namespace
 
 void check_head(const Value& document, const std::vector<std::string>& keys, Problems& problems) {
@@ -200,6 +225,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
         problems.add(stages ? stages->mark : document.mark, "E-MISSING", "a pipeline needs stages",
                      "stages: [{load: scan.ply}]");
     planner.finish();
+    if (!problems.any_errors()) check_judged_files(plan.steps, false, problems);
     plan.others.insert(plan.others.end(), planner.included().begin(), planner.included().end());
     plan.reports = read_reports(document.find("report"), scope, settings, plan.others, problems);
     auto files = planned_files(plan.steps, plan.places);

@@ -22,9 +22,9 @@ struct Condition {
 };
 
 struct Arm {
-    std::string name;                                     ///< of a branch; of a foreach: "lod=50%"
-    std::vector<std::pair<std::string, Value>> variables; ///< of a foreach
-    std::optional<std::size_t> part;                      ///< of a foreach over parts: the index of its part
+    std::string name;                                     ///< name in a branch; in a foreach: "lod=50%"
+    std::vector<std::pair<std::string, Value>> variables; ///< variables of a foreach
+    std::optional<std::size_t> part;                      ///< in a foreach over parts: the index of its part
     std::shared_ptr<Steps> steps;
 };
 
@@ -35,17 +35,17 @@ using ArmsOfParts = std::function<std::vector<Arm>(const std::vector<std::string
 struct Step {
     enum class Kind { stage, branch, foreach };
     Kind kind = Kind::stage;
-    const StageInfo* info = nullptr; ///< of the stage
-    std::shared_ptr<Stage> stage;    ///< with its options
+    const StageInfo* info = nullptr; ///< the stage's properties
+    std::shared_ptr<Stage> stage;    ///< the stage with its options
     Value given;                     ///< as written, with resolved expressions
     std::string name;                ///< unique in the plan
     std::string path;                ///< "stages[3]", "stages[5].branch.far[0]"
     std::optional<Condition> when;
     PartFilter only;
     std::optional<Contract> ensure;
-    std::vector<Arm> arms;     ///< of a branch, or of a foreach (over parts: planned for an unknown part)
-    ArmsOfParts arms_of_parts; ///< of a foreach over parts, else empty
-    PartFilter parts;          ///< the parts of that foreach
+    std::vector<Arm> arms;     ///< arms of a branch or foreach (over parts: planned for an unknown part)
+    ArmsOfParts arms_of_parts; ///< set for a foreach over parts
+    PartFilter parts;          ///< the parts of this foreach
     bool join = false;
     Mark where;
 };
@@ -59,13 +59,13 @@ struct PlannedFile {
     Mark where;
     bool written = false;
     std::vector<std::pair<std::string, Value>>
-        variables{};                 ///< of each enclosing foreach, the outermost first
+        variables{};                 ///< variables of each enclosing foreach, the outermost first
     bool shapes = false;             ///< a file with stages or params of the pipeline: an include, a preset
     std::filesystem::path pattern{}; ///< for an input found by wildcards: the pattern
 };
 
 struct PlanSettings {
-    std::string name;    ///< of the pipeline, for messages and the report
+    std::string name;    ///< name of the pipeline, for messages and the report
     std::string command; ///< the shell command that runs it again; empty: unknown
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
     /// The marks of values in defines that do not come from -D: in a table, in a preset.
@@ -100,7 +100,8 @@ struct Plan {
     std::vector<std::string> allowed; ///< ids of warnings that are neither reported nor failures
 };
 
-/// Adds the values of a preset, a YAML file with a map of params. Existing values stay. Throws missing.
+/// Adds the values of a preset, a YAML file with a map of params. Existing values stay. Throws a
+/// missing-file error.
 void add_preset(const std::filesystem::path& file, PlanSettings& settings, Problems& problems);
 
 /// Plans a parsed document. Adds all problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...).
@@ -113,7 +114,7 @@ struct PipelineSource {
     std::string text;
     std::filesystem::path file; ///< "-": standard input; empty: none
 };
-/// Reads a pipeline file ("-": standard input). An unreadable file throws missing.
+/// Reads a pipeline file ("-": standard input). An unreadable file throws a missing-file error.
 [[nodiscard]] PipelineSource read_pipeline(const std::filesystem::path& file);
 /// Plans a pipeline; its inputs are relative to its file, which is an input itself.
 [[nodiscard]] Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& problems);
@@ -125,10 +126,11 @@ struct PipelineSource {
 /// The folders, besides a file's own, in which loaded files may refer to files.
 [[nodiscard]] std::vector<std::filesystem::path> asset_roots_of(const Steps& steps, const Folders& places);
 /// Checks for conflicts between files. Adds E-DUPLICATE-OUTPUT for two writes to the same path (ignoring
-/// case), E-OVERWRITE for an output that is also an input, and E-DUPLICATE-INPUT for reading standard input
-/// twice. Returns true if there is no conflict.
+/// case), and E-OVERWRITE for an output that is also an input. Adds E-DUPLICATE-INPUT for reading standard
+/// input twice. Returns true if there is no conflict.
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
-/// The same, with the files of step, a foreach over parts, once the names of the parts are known.
+/// Checks all files of the plan as in check_collisions, with the files of a foreach over parts, once the
+/// names of the parts are known.
 void check_new_files(const Plan& plan, const Step& step, const std::vector<Arm>& arms, Problems& problems);
 /// An E-FILE for every missing input, at its mark; exit code 3. run_plan calls it first.
 [[nodiscard]] std::vector<Diagnostic> missing_inputs(const Plan& plan);
@@ -149,7 +151,7 @@ struct Headers {
     bool images_change = false;
     std::vector<Error> errors; ///< in plan order
     struct Lengths {
-        Unit unit = Unit::unknown; ///< of the scene
+        Unit unit = Unit::unknown; ///< unit of the scene
         std::vector<report::ResolvedLength> all;
     };
     /// By step path, the lengths with a physical unit if the scene's unit is known.
@@ -184,7 +186,7 @@ struct Headers {
 [[nodiscard]] std::string describe(const Plan& plan, const Headers& headers = {});
 /// The defaults, in pipeline syntax, of the options that a stage was not given.
 [[nodiscard]] std::map<std::string, std::string> default_texts(const Step& step);
-/// The effective options of a stage: given, else the default.
+/// The effective options of a stage: the given value, otherwise the default.
 [[nodiscard]] Json options_json(const Step& step);
 [[nodiscard]] Json describe_json(const Plan& plan, const Headers& headers = {});
 

@@ -75,19 +75,19 @@ class Planner {
     std::vector<std::filesystem::path> chain_to(const std::filesystem::path& file) const;
     /// Returns false, after a problem, if including would be recursive, or nested too deeply.
     bool may_include(const std::filesystem::path& file, const Mark& where);
-    /// The document in a file, with paths relative to the pipeline's folder; null after a problem. Throws
-    /// missing.
+    /// The document in a file, with paths relative to the pipeline's folder; null after a problem. Throws a
+    /// missing-file error.
     const Value* fragment(const std::filesystem::path& file, const Mark& where);
     std::string unique_name(const std::string& base, const std::string& prefix, const Mark& explicit_at);
 
     const PlanSettings& settings_;
     Problems& problems_;
     Overrides overrides_;
-    std::size_t steps_ = 0; ///< planned so far: nested foreach multiply
+    std::size_t steps_ = 0; ///< number of steps planned so far; nested foreach multiply
     UniqueNames used_names_{'-'};
     std::set<std::string> names_;                      ///< names of steps that --set may use
-    std::map<std::filesystem::path, Value> fragments_; ///< already read
-    std::vector<std::filesystem::path> open_;          ///< being included, the innermost last
+    std::map<std::filesystem::path, Value> fragments_; ///< files already read
+    std::vector<std::filesystem::path> open_;          ///< files being included, the innermost last
     std::vector<PlannedFile> included_;
 };
 

@@ -9,7 +9,7 @@ namespace facetmill::pipeline {
 
 /// How to handle a path that begins with ${...}, because its folder is known only at run time.
 enum class RunTimePaths {
-    refused, ///< throws usage (E-SAVE)
+    refused, ///< throws a usage error (E-SAVE)
     kept,    ///< the variable gives the base folder
 };
 

@@ -119,7 +119,7 @@ class Runner {
             if (settings_.cells.job) require_jobs(plan_, on_cells_);
             if (on_cells_.steps > 0 && engine_.keeps_loaded)
                 throw Error(ErrorKind::usage, "E-CELLS",
-                            "a later step compares with the scene as loaded, which is not in memory",
+                            "a later step compares with the input, which is not in memory",
                             "leave the comparison out, or give more memory");
         };
         if (!failures_.guarded({}, "the plan", planned)) return false;

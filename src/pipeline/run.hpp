@@ -13,12 +13,12 @@ struct RunSettings {
     Progress* progress = nullptr;
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
-    bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
+    bool check_invariants = false; ///< checks mesh/invariants.hpp after every stage (for tests)
     bool last_picture = false;     ///< makes a small picture in the last stage's record, even without reports
     /// Makes the record of a page, even without reports; called at the end with the contents of its 3D view.
     std::function<void(const Json&)> on_view = {};
     cache::Store* store = nullptr; ///< source and destination of stage results; null: no cache
-    io::CommitSettings commit{};   ///< of outputs and reports
+    io::CommitSettings commit{};   ///< how to commit outputs and reports
     CellSettings cells{};          ///< controls processing of meshes larger than memory on disk
     /// Called with messages about the reuse of kept cells.
     std::function<void(const std::string&)> on_kept_cells = {};
@@ -39,7 +39,7 @@ struct RunSettings {
 
 /// Writes the reports of a pipeline that cannot run because of these problems (exit code 2). Do not call it
 /// for a plan with file collisions, because a report may be involved. Returns their paths, relative to the
-/// output folder. Throws output when a report cannot be written.
+/// output folder. Throws an output error when a report cannot be written.
 [[nodiscard]] std::vector<std::string> report_refusal(const Plan& plan, const Problems& problems);
 
 /// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record with

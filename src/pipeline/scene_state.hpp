@@ -2,6 +2,7 @@
 // The scene between steps: in memory, or as a description of a cached scene.
 
 #include "cache/state.hpp"
+#include "io/gltf/gltf.hpp"
 #include "pipeline/plan.hpp"
 #include "report/contents.hpp"
 #include "stage/surface_loss.hpp"
@@ -14,12 +15,12 @@ namespace facetmill::pipeline {
 struct Recalled {
     const Step* step = nullptr;
     std::size_t trace = 0;    ///< its index in the trace of the run
-    double load_diagonal = 0; ///< before it
+    double load_diagonal = 0; ///< diagonal before the step
     cache::Memory memory;
 };
 
 struct SceneState {
-    Scene scene; ///< before the recalled steps
+    Scene scene; ///< the scene before the recalled steps
     std::vector<Recalled> recalled;
     /// The result of the last stage, as long as `scene` is that result.
     struct Left {
@@ -39,12 +40,12 @@ struct SceneState {
     std::optional<std::pair<std::string, cache::Memory>> loaded;
     bool without_cache = false;
     bool in_cells = false;        ///< no scene yet: the loaded mesh is larger than memory
-    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this one
-    std::size_t inherited = 0;    ///< how many recalled steps belong to the origin
+    SceneState* origin = nullptr; ///< the flow before the branch, which outlives this flow
+    std::size_t inherited = 0;    ///< the number of recalled steps that belong to the origin
 
     /// True if `scene` is the current scene.
     bool is_here() const { return recalled.empty(); }
-    Box bounds() const { return is_here() ? scene.bounds() : recalled.back().memory.bounds; }
+    Box drawn_bounds() const { return is_here() ? io::drawn_bounds(scene) : recalled.back().memory.bounds; }
     /// The same scene for an arm. Work to fetch it is done once, for all arms.
     SceneState branched_off() {
         SceneState arm;

@@ -161,7 +161,7 @@ bool StageCache::recall(const Step& step, SceneState& flow, RunState& run, repor
     trace_.back().way = TracedStep::Way::ran;
     try {
         return recall_known(step, flow, run, stage);
-    } catch (const std::exception&) { // no memory, which the stage may need less of; or bytes nobody wrote
+    } catch (const std::exception&) { // a lack of memory, of which the stage may need less, or invalid bytes
         return false;
     }
 }
@@ -248,7 +248,7 @@ void StageCache::keep_known(const Step& step, SceneState& flow, const RunState& 
             return warning.message.find(step.name) != std::string::npos;
         });
     if (tells_name) memory.told_name = step.name;
-    memory.bounds = stage.after->bounds;
+    memory.bounds = io::drawn_bounds(flow.scene);
     if (step.info->loads) {
         memory.record = stage;
         flow.loaded = {before.key, std::move(memory)};
@@ -352,7 +352,7 @@ void StageCache::run_again(SceneState& flow, std::size_t first) {
         report::StageRecord record;
         record.name = step.name;
         record.stage = step.info->name;
-        Context context(run, record, step.only, flow.scene.bounds(), step.where);
+        Context context(run, record, step.only, io::drawn_bounds(flow.scene), step.where);
         flow.scene = perform(*step.stage, std::move(flow.scene), context);
         const auto same = [](const report::FileRecord& a, const report::FileRecord& b) {
             return a.path == b.path && a.sha256 == b.sha256;

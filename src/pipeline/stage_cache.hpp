@@ -2,15 +2,15 @@
 // Skips stages whose results for the same scene and options are in the cache, and stores the results of
 // stages that ran.
 //
-// A stage can be recalled if it reads only the scene, its options and `only`, and only returns a scene and
-// fills its record (warnings may contain its name). A load can be recalled if the files that it read are
+// A stage can be recalled if it reads only the scene, its options and `only`. It may only return a scene and
+// fill its record (warnings may contain its name). A load can be recalled if the files that it read are
 // unchanged. Stages that check or write always run. If a stage turns out to have had other effects, its
 // result is not stored.
 //
-// The key of a stage's result is computed from the previous scene's key, the stage, its options, this program
-// and its libraries. The key of any other scene (loaded, joined ...) is computed from its contents, so its
-// history does not matter. A scene is stored if that takes at most a tenth of the stages' time since the last
-// stored scene. The report entries of these stages are stored together with it.
+// The key of a stage's result is computed from the previous scene's key, the stage, its options, this
+// program and its libraries. The key of any other scene (loaded, joined ...) is computed from its contents,
+// so its history does not matter. A scene is stored if that takes at most a tenth of the stages' time since
+// the last stored scene. The report entries of these stages are stored together with it.
 
 #include "cache/store.hpp"
 #include "pipeline/scene_state.hpp"
@@ -36,7 +36,7 @@ class StageCache {
 
     /// The state of a run before a stage, to decide afterwards whether its result may be stored.
     struct Before {
-        std::string key; ///< of the stage with this scene; empty: not stored
+        std::string key; ///< key of the stage with this scene; empty: not stored
         std::size_t inputs = 0, absent = 0, outputs = 0, staged = 0, checks = 0, warnings = 0,
                     unrepeatable = 0;
         double load_diagonal = 0;
@@ -49,8 +49,8 @@ class StageCache {
     /// Call it before a flow branches into these arms, so that common work is done once.
     void before_arms(SceneState& flow, const std::vector<Arm>& arms) const;
 
-    /// Brings the scene of a flow into memory: from the cache, or by running the recalled steps. Throws their
-    /// errors, and malformed (E-CHANGED) if an input has changed.
+    /// Brings the scene of a flow into memory: from the cache, or by running the recalled steps. Throws
+    /// their errors, and a malformed-input error (E-CHANGED) if an input has changed.
     void fetch(SceneState& flow);
 
   private:
@@ -70,7 +70,7 @@ class StageCache {
     const Folders& places_;
     Trace& trace_;
     bool loads_run_ = false;
-    std::vector<std::shared_ptr<const Document>> documents_; ///< of all scenes of the run
+    std::vector<std::shared_ptr<const Document>> documents_; ///< documents of all scenes of the run
 };
 
 } // namespace facetmill::pipeline

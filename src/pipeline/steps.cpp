@@ -92,7 +92,7 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
         else if (entry.key == "if" || entry.key == "unless" || entry.key == "condition")
             hint = "a condition is written when: ...";
         else if (is_common_key(entry.key))
-            hint = fmt::format("it stands beside one stage: give it to those of {}", stage->key);
+            hint = fmt::format("it applies to a single stage: add it to the stages of {}", stage->key);
         problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is not a key of an item", entry.key), hint);
     }
     if (!stage && good) problems.add(item.mark, "E-STAGE", "the item has no stage", "- clip: {plane: z=0}");
@@ -161,7 +161,7 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
     }
     const Value::Entry* entry = stage_entry(as_map, problems_);
     if (!entry) {
-        has_scene = true; // it may have been the load; do not report missing scenes
+        has_scene = true; // the faulty step may be a load, so do not report missing scenes
         return;
     }
     const ControlItem* control = control_item(entry->key);

@@ -100,7 +100,7 @@ void compare_inputs(const Json& before, const TracedStep& now, std::vector<std::
 /// The reason why a step ran that could have been recalled.
 std::string reason(const TracedStep& step, const Json& last) {
     const Json* before = step_named(last, step.name);
-    if (last.is_null()) return "no earlier run with these outputs is known";
+    if (last.is_null()) return "no earlier run wrote these outputs";
     if (!before) return "it is new";
     if ((*before)["stage"] != step.stage)
         return fmt::format("{} -> {}", shown(&(*before)["stage"]), step.stage);
@@ -110,8 +110,8 @@ std::string reason(const TracedStep& step, const Json& last) {
     if (!reasons.empty()) return fmt::format("{}", fmt::join(reasons, ", "));
     if (last["code"] != code_id()) return "facetmill or one of its libraries changed";
     if ((*before)["before"] != step.before) return "the scene before it changed";
-    if ((*before)["key"] != step.key) return "its options are written in another way";
-    return "its result was not stored, or is gone";
+    if ((*before)["key"] != step.key) return "its options are written differently";
+    return "its result was not stored or was removed";
 }
 
 std::string line_of(const TracedStep& step, const Json& last) {
@@ -119,7 +119,7 @@ std::string line_of(const TracedStep& step, const Json& last) {
     case Way::recalled:
         return fmt::format("{}: from the cache", step.name);
     case Way::again:
-        return fmt::format("{} reruns: of its result only the report was stored", step.name);
+        return fmt::format("{} reruns: only the report of its result was stored", step.name);
     case Way::always:
         return fmt::format("{}: runs every time", step.name);
     case Way::skipped:

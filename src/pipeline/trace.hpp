@@ -17,7 +17,7 @@ struct TracedStep {
         skipped,  ///< `when` did not hold
     };
     std::string name, stage;
-    Json options = Json::object();                           ///< as in facetmill plan --json, and `only`
+    Json options = Json::object(); ///< the options as in facetmill plan --json, and `only`
     std::vector<std::pair<std::string, std::string>> inputs; ///< paths and digests
     std::string before{};                                    ///< the key of its input scene
     std::string key{};                                       ///< empty: no key

@@ -39,7 +39,7 @@ std::string bare_item_hint(const std::string& text, std::size_t at) {
     std::string above = line_of(text, line - 1);
     above.erase(0, above.find_first_not_of(' '));
     if (!above.starts_with("- ") || above.find_first_of(":{}[]\"'#") != std::string::npos) return {};
-    return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
+    return fmt::format("a stage with further keys needs a colon: '{}:' in the line above", above);
 }
 
 /// A hint for a quoted text that ended unexpectedly, just before byte `at`.
@@ -73,12 +73,11 @@ Said in_words(const std::string& said) {
     if (said == "end of sequence flow not found")
         return {"expected ',' or ']' here", "a text with special characters must be quoted"};
     if (said == "illegal map value")
-        return {"a ':' cannot stand here", "quote a text that holds ': ', and mind the indentation"};
+        return {"unexpected ':'", "quote a text that holds ': ', and mind the indentation"};
     if (said == "end of map not found") return {"expected a key of the map here", "mind the indentation"};
     if (said == "end of sequence not found")
         return {"expected an item of the list ('- ...') here", "mind the indentation"};
-    if (said == "illegal block entry")
-        return {"an item of a list ('- ...') cannot stand here", "mind the indentation"};
+    if (said == "illegal block entry") return {"unexpected list item ('- ...')", "mind the indentation"};
     if (said == "illegal EOF in scalar") return {"the quote is never closed", ""};
     return {said, ""};
 }

@@ -41,7 +41,7 @@ Mark SourceIndex::mark(std::size_t offset, int length) const {
 std::string hint_for_no_pipeline(const std::string& name) {
     if (!io::codec_for(name)) return {};
     return fmt::format(
-        "is this a mesh? facetmill info {0} tells what it holds, facetmill pipe load {0} ! ... works on it",
+        "is this a mesh? facetmill info {0} shows its contents, facetmill pipe load {0} ! ... works on it",
         name);
 }
 

@@ -29,7 +29,7 @@ class SourceIndex {
     std::vector<std::size_t> line_begins_;
 };
 
-/// A hint if the name of an invalid pipeline file is the name of a mesh; else empty.
+/// A hint if the name of an invalid pipeline file is the name of a mesh; otherwise empty.
 [[nodiscard]] std::string hint_for_no_pipeline(const std::string& name);
 
 /// Checks that the text is UTF-8, without control characters and not too large; adds E-YAML at the first

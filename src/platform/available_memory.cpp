@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// The number at the beginning of a file; none if there is none ("max").
+/// The number at the beginning of a file; none for other text ("max").
 std::optional<std::uint64_t> number_in(const std::string& path) {
     std::ifstream file(path);
     std::uint64_t n = 0;

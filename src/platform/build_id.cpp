@@ -46,7 +46,7 @@ std::string id_of(const dl_phdr_info& info) {
     return {};
 }
 
-/// Replaces the build id of a file that the linker gave none.
+/// Replaces the build id of a file without one.
 std::string by_file(const char* path) {
     struct stat about {};
     ::stat(path, &about);

@@ -5,11 +5,12 @@
 
 namespace facetmill {
 
-/// The build id that the linker gave the program; without one, its version, size and time.
+/// The build id from the linker. Without it, the program's version, size and time.
 const std::string& build_id();
 
-/// A digest of the program's and its loaded libraries' identities, which a stored result depends on besides
-/// its inputs. Hexadecimal. Computed on the first call: call it early, before libraries are loaded on demand.
+/// A digest of the program's and its loaded libraries' identities, on which a stored result depends besides
+/// its inputs. Hexadecimal. Computed on the first call: call it early, before libraries are loaded on
+/// demand.
 const std::string& code_id();
 
 } // namespace facetmill

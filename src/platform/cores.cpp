@@ -50,7 +50,7 @@ std::optional<double> of_groups(const std::string& root, std::string path) {
 
 int allowed_cores() {
     double cores = of_affinity();
-    std::ifstream groups("/proc/self/cgroup"); // "0::/a/b", "4:cpu,cpuacct:/a/b"
+    std::ifstream groups("/proc/self/cgroup"); // lines look like "0::/a/b" or "4:cpu,cpuacct:/a/b"
     for (std::string line; std::getline(groups, line);) {
         const auto first = line.find(':'), second = line.find(':', first + 1);
         if (second == line.npos) continue;

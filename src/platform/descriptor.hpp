@@ -36,7 +36,7 @@ class Descriptor {
 };
 
 enum class OpenFor { reading, writing, both };
-enum class Create { no, if_missing, always }; ///< always: an existing file is an error
+enum class Create { no, if_missing, always }; ///< `always`: an existing file is an error
 
 struct OpenOptions {
     OpenFor what = OpenFor::reading;
@@ -44,9 +44,9 @@ struct OpenOptions {
     bool truncates = false;
     bool appends = false;
     bool follows_links = true;
-    bool waits = true; ///< for the other end of a pipe, and for its bytes
+    bool waits = true; ///< waits for the other end of a pipe, and for its bytes
     bool is_folder = false;
-    unsigned permissions = 0666; ///< for a new file
+    unsigned permissions = 0666; ///< permissions of a new file
 };
 
 /// Programs that this process starts do not inherit the file; forked processes (start_worker) do.

@@ -14,7 +14,7 @@ namespace facetmill {
 [[nodiscard]] std::optional<std::size_t> read_some(const Descriptor& file, std::span<std::byte> to);
 /// Reads until the span is full, the file ends, or an error occurs; returns the number of bytes read.
 [[nodiscard]] std::size_t read_whole(const Descriptor& file, std::span<std::byte> to);
-/// The same from an offset. May be called from any thread.
+/// Like read_whole, from an offset. May be called from any thread.
 [[nodiscard]] std::size_t read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> to);
 
 /// Writes at least one byte; none, with errno, on failure.

@@ -7,8 +7,8 @@ namespace facetmill {
 
 enum class Lock { shared, exclusive };
 
-/// Does not wait. False, with errno, if another process holds the lock (EWOULDBLOCK), or if the file system
-/// has no locks.
+/// Takes the lock without waiting. False, with errno, if another process holds the lock (EWOULDBLOCK), or if
+/// the file system has no locks.
 bool try_lock(const Descriptor& file, Lock lock = Lock::exclusive);
 
 } // namespace facetmill

@@ -6,14 +6,14 @@
 
 namespace facetmill {
 
-/// Replaces an existing `to`.
+/// Renames a file, replacing an existing `to`.
 bool rename_file(const std::filesystem::path& from, const std::filesystem::path& to) noexcept;
 bool remove_file(const std::filesystem::path& path) noexcept;
-/// Fails if it is not empty.
+/// Removes a folder. Fails if it is not empty.
 bool remove_folder(const std::filesystem::path& path) noexcept;
-/// Makes one folder; its parent must exist.
+/// Makes a folder; its parent must exist.
 bool make_folder(const std::filesystem::path& path, unsigned permissions = 0777);
-/// Sets its time to now; for a link, the link's own time.
+/// Sets the file's time to now; for a link, the link's own time.
 bool touch_file(const std::filesystem::path& path);
 
 bool may_read(const std::filesystem::path& path);

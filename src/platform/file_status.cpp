@@ -9,7 +9,7 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::int64_t nanoseconds = 1'000'000'000; // of a second
+constexpr std::int64_t nanoseconds = 1'000'000'000; // nanoseconds in a second
 
 std::int64_t time_in(const timespec& time) {
     return std::int64_t{time.tv_sec} * nanoseconds + std::int64_t{time.tv_nsec};
@@ -51,7 +51,7 @@ bool FileStamp::has_contents_of(const FileStamp& other) const {
 }
 
 bool FileStamp::is_settled(std::int64_t now) const {
-    constexpr std::int64_t coarsest = 2 * nanoseconds; // FAT
+    constexpr std::int64_t coarsest = 2 * nanoseconds; // the time resolution of FAT
     return std::max(modified, changed) + coarsest < now;
 }
 

@@ -11,16 +11,17 @@ namespace facetmill {
 /// The identity of a file, its size and its times.
 struct FileStamp {
     std::uint64_t bytes = 0, device = 0, inode = 0;
-    std::int64_t modified = 0, changed = 0; ///< nanoseconds since 1970, of its contents and of its metadata
+    std::int64_t modified = 0,
+                 changed = 0; ///< times of its contents and of its metadata, in nanoseconds since 1970
     bool operator==(const FileStamp&) const = default;
 
-    /// None if the file does not exist.
+    /// The stamp of a file; none if it does not exist.
     static std::optional<FileStamp> of(const std::filesystem::path& path);
     static std::optional<FileStamp> of(const Descriptor& file);
     bool is_same_file(const FileStamp& other) const { return device == other.device && inode == other.inode; }
     /// True if the contents are the same; the name, owner and number of links may differ.
     bool has_contents_of(const FileStamp& other) const;
-    /// True if a later write, from that time on, will change the file's times, even if the system counts in
+    /// True if any write from this time on will change the file's times, even if the system counts in
     /// seconds.
     bool is_settled(std::int64_t now) const;
 };
@@ -35,7 +36,7 @@ struct FileStatus {
     bool is_own() const;
 };
 
-/// None, with errno, if the file does not exist.
+/// The status of a file; none, with errno, if it does not exist.
 [[nodiscard]] std::optional<FileStatus> status_of(const std::filesystem::path& path);
 [[nodiscard]] std::optional<FileStatus> status_of(const Descriptor& file);
 /// The status of a link itself.

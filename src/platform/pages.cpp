@@ -17,12 +17,12 @@ std::size_t page_size() noexcept {
 
 void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
-    constexpr std::size_t least = std::size_t{2} << 20; // less contains no page of 2 MiB
+    constexpr std::size_t least = std::size_t{2} << 20; // smaller memory contains no page of 2 MiB
     if (bytes < least) return;
     const std::size_t page = page_size();
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t begin = start / page * page, end = (start + bytes + page - 1) / page * page;
-    // Refused by a kernel without them: pages stay small, as without the call.
+    // A kernel without large pages refuses this, and pages stay small.
     const int error = errno;
     (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
     errno = error;
@@ -31,7 +31,7 @@ void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::si
 
 void populate_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_POPULATE_WRITE
-    // Refused by an old kernel or a limit: pages come one by one, as without the call.
+    // An old kernel or a limit may refuse this, and pages are then allocated one by one.
     (void)madvise(memory, bytes, MADV_POPULATE_WRITE);
 #endif
 }

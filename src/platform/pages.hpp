@@ -21,14 +21,14 @@ void ask_for_large_pages(void* memory, std::size_t bytes) noexcept;
 void populate_pages(void* memory, std::size_t bytes) noexcept;
 
 /// Makes the process reuse the memory of large freed arrays instead of returning it to the system, which
-/// would have to clear the pages again. Keeps at most 256 MiB at the end of the heap. GNU's malloc only. Call
-/// it before any other work.
+/// would have to clear the pages again. Keeps at most 256 MiB at the end of the heap. Only for GNU malloc.
+/// Call it before any other work.
 void keep_freed_memory() noexcept;
 
 /// Returns all freed memory to the system now.
 void give_back_freed_memory() noexcept;
 
-/// Maps the bytes of a file for sequential reading. Null when it cannot be mapped.
+/// Maps the bytes of a file for sequential reading. Null if it cannot be mapped.
 [[nodiscard]] std::shared_ptr<const void> map_file(const Descriptor& file, std::size_t bytes);
 
 /// Releases the whole pages of a part of a mapped file. Reading them again loads them from the file.

@@ -43,7 +43,7 @@ using How = ProgramEnd::How;
 /// waits.
 How wait_for(pid_t process, const Descriptor& socket, std::chrono::seconds limit, int& status) {
     const auto deadline = std::chrono::steady_clock::now() + limit;
-    constexpr int first_pause = 2, longest_pause = 50; // milliseconds
+    constexpr int first_pause = 2, longest_pause = 50; // pauses in milliseconds
     for (int pause = first_pause;; pause = std::min(2 * pause, longest_pause)) {
         const pid_t ended = ::waitpid(process, &status, WNOHANG);
         if (ended == process || (ended < 0 && errno != EINTR)) return How::exited;
@@ -52,7 +52,7 @@ How wait_for(pid_t process, const Descriptor& socket, std::chrono::seconds limit
         const bool late = std::chrono::steady_clock::now() > deadline;
         if (!deserted && !late) continue;
         ::kill(-process, SIGKILL);
-        ::kill(process, SIGKILL); // before it creates its process group
+        ::kill(process, SIGKILL); // the program may not have created its process group yet
         ::waitpid(process, &status, 0);
         return deserted ? How::deserted : How::late;
     }

@@ -22,8 +22,9 @@ struct ProgramEnd {
     int number = 0; ///< its exit code (127: it cannot be run), the signal, or an errno
 };
 
-/// Runs the program in the working folder, the only place where it may write if the kernel has Landlock, and
-/// waits. It is killed with its children after the time limit, or when the other side of the socket closes.
+/// Runs the program in the working folder and waits. If the kernel has Landlock, the program may write only
+/// in this folder. It is killed with its children after the time limit, or when the other side of the socket
+/// closes.
 ProgramEnd run_program(const ProgramSettings& settings, const Descriptor& socket);
 
 } // namespace facetmill

@@ -48,7 +48,7 @@ std::atomic<bool> calls_given_up{false};
 
 // --- Landlock: its interface from the kernel's documentation, because headers may be older than kernels
 
-constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446; // on every architecture
+constexpr long create_ruleset = 444, add_rule = 445, restrict_self = 446; // the same on every architecture
 
 constexpr std::uint64_t right(int bit) { return std::uint64_t{1} << bit; }
 constexpr std::uint64_t run_file = right(0), write_file = right(1), read_file = right(2),
@@ -88,7 +88,8 @@ class Rules {
         descriptor_ = Descriptor(static_cast<int>(::syscall(create_ruleset, &handled_, size_of(version), 0)));
     }
 
-    /// Missing and unnameable files need no rule. The other end of a pipe has no name, and is never refused.
+    /// Missing files and files without names need no rule. The other end of a pipe has no name, and is never
+    /// refused.
     void allow(const fs::path& path, std::uint64_t rights) {
         const Descriptor file(::open(path.c_str(), O_PATH | O_CLOEXEC));
         // If descriptors or memory run out, a rule would be missing, and a planned file would be refused.
@@ -167,7 +168,7 @@ constexpr int refused_calls[] = {
     SCMP_SYS(sysfs),
     // other processes by a descriptor
     SCMP_SYS(pidfd_send_signal), SCMP_SYS(pidfd_open), SCMP_SYS(pidfd_getfd),
-    440, // process_madvise, unknown to libseccomp 2.5
+    440, // process_madvise, which libseccomp 2.5 does not know
 };
 
 using Filter = std::unique_ptr<void, decltype(&seccomp_release)>;
@@ -232,7 +233,7 @@ bool confine_files(const AllowedFiles& allowed) {
 
 bool confine_calls() {
     if (!filters_calls || calls_given_up) return calls_given_up;
-    // libseccomp crashes when it gets no memory, and takes far less than this: bad_alloc instead.
+    // libseccomp crashes without memory. It needs far less than this, so this throws bad_alloc instead.
     void* volatile room = ::operator new (std::size_t{4} << 20);
     ::operator delete(room);
     const Filter filter(seccomp_init(SCMP_ACT_ALLOW), &seccomp_release);

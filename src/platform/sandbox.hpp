@@ -11,15 +11,15 @@ namespace facetmill {
 
 /// The protections that the kernel supports, or that are active.
 struct Protections {
-    int files = 0;      ///< the version of Landlock; 0: none
+    int files = 0;      ///< the version of Landlock; 0: not available
     bool calls = false; ///< seccomp
     bool any() const { return files > 0 || calls; }
 };
 
-/// Supported by this kernel. None with AddressSanitizer, because its leak detection traces the process from
-/// another process.
+/// The protections that this kernel supports. None with AddressSanitizer, because its leak detection traces
+/// the process from another process.
 [[nodiscard]] Protections offered_protections();
-/// Active in this process.
+/// The protections that are active in this process.
 [[nodiscard]] Protections active_protections();
 
 /// Files that stay accessible, besides open files, libraries and system information. A folder includes
@@ -42,7 +42,7 @@ bool confine_files(const AllowedFiles& allowed);
 /// calls fail (EPERM). True if the kernel supports it.
 bool confine_calls();
 
-/// A hint if the sandbox refused the file instead of the file's permissions; else empty. error: an errno.
+/// A hint if the sandbox refused the file, not the file's permissions; otherwise empty. error: an errno.
 [[nodiscard]] std::string sandbox_hint(const std::filesystem::path& file, int error);
 
 } // namespace facetmill

@@ -14,7 +14,7 @@ void on_lost_pages(SignalHandler handler);
 /// Makes writing to a closed pipe, or beyond a size limit, fail with an error instead of a signal.
 void ignore_write_signals();
 
-// Safe in handlers:
+// The following functions are safe in handlers.
 
 /// Ends the process like the unhandled signal, so that its status is 128+number. In a handler, it takes
 /// effect when the handler returns.

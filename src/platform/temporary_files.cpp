@@ -58,7 +58,7 @@ void remove_abandoned(const fs::path& directory) {
 Descriptor unnamed_file(const fs::path& folder) {
     Descriptor nameless(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
     if (nameless || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return nameless;
-    for (int attempt = 0;; ++attempt) { // for file systems without unnamed files
+    for (int attempt = 0;; ++attempt) { // fallback for file systems without unnamed files
         const fs::path path = folder / temporary_name("cells", attempt);
         Descriptor named =
             open_file(path, {.what = OpenFor::both, .create = Create::always, .permissions = 0600});

@@ -1,5 +1,5 @@
 #pragma once
-// Whether output goes to a terminal.
+// Detects whether output goes to a terminal.
 
 namespace facetmill {
 

@@ -13,12 +13,13 @@ namespace {
 
 [[noreturn]] void serve_and_exit(const std::function<void(const Descriptor&)>& serve,
                                  const Descriptor& socket) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN); // ends with its parent
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        std::signal(signal, SIG_IGN); // the worker ends with its parent
     const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
     try {
         serve(socket);
-    } catch (...) { // no memory: whoever waits sees that nothing comes
+    } catch (...) { // out of memory; the waiting side notices that no answer comes
     }
     ::_exit(0);
 }

@@ -9,8 +9,8 @@
 namespace facetmill {
 
 /// Starts a process that runs the function and exits afterwards. The process gets one end of a socket pair,
-/// the caller the other; the latter is false on failure. Signals that end the caller do not end the process;
-/// instead its socket closes. Call it before starting threads.
+/// and the caller gets the other end. If the start fails, the caller's descriptor is false. Signals that end
+/// the caller do not end the process; instead its socket closes. Call it before starting threads.
 [[nodiscard]] Descriptor start_worker(const std::function<void(const Descriptor& socket)>& serve);
 
 /// False if the other side has closed.

@@ -11,7 +11,7 @@
 namespace facetmill::report {
 
 std::string verdict_text(const RunRecord& record) {
-    if (record.exit_code == 0) return "ok: everything held, and all outputs were written";
+    if (record.exit_code == 0) return "passed: all checks held and all outputs were written";
     return fmt::format("failed with exit code {}{}", record.exit_code,
                        record.outputs.empty() ? ": no output was written" : "");
 }
@@ -22,6 +22,11 @@ std::string passed_text(const RunRecord& record) {
     return fmt::format("{} of {}", passed, record.checks.size());
 }
 
+std::string subject_text(const Check& check) {
+    if (check.file.empty() || check.part.empty()) return check.part + check.file;
+    return check.part + " in " + check.file;
+}
+
 const char* outcome(const Check& check) {
     if (check.waived) return "known";
     if (check.passed) return "passed";
@@ -30,7 +35,7 @@ const char* outcome(const Check& check) {
 
 namespace {
 
-/// "[0, 0, 0]"
+/// For example "[0, 0, 0]".
 std::string point_text(const Vec3& p) {
     return fmt::format("[{}, {}, {}]", to_string(p.x), to_string(p.y), to_string(p.z));
 }
@@ -47,7 +52,7 @@ struct FoundText {
     std::string operator()(const std::vector<std::string>& names) const { return join_texts(names); }
 };
 
-/// "face 7 and 9 of 'part' at 1 2 3"
+/// For example "face 7 and 9 of 'part' at 1 2 3".
 std::string location_text(const EvidenceEntry& e) {
     std::string text;
     if (e.face) text += fmt::format("face {} ", *e.face);
@@ -58,7 +63,7 @@ std::string location_text(const EvidenceEntry& e) {
     return text;
 }
 
-/// "part 'wheel' 1200", "image 'wood' 2048 x 1024", "extension 'KHR_a' of 'b.glb'"
+/// For example "part 'wheel' 1200", "image 'wood' 2048 x 1024", "extension 'KHR_a' of 'b.glb'".
 std::string share_text(const EvidenceEntry& e) {
     using Of = EvidenceEntry::Of;
     const std::string amount = e.amount ? fmt::format(" {:.12g}", *e.amount) : "";
@@ -112,24 +117,31 @@ std::string margin_text(const Check& check) {
     const double above = check.min ? found - *check.min : HUGE_VAL;
     const double margin = std::min(below, above), limit = below <= above ? *check.max : *check.min;
     if (!std::isfinite(margin)) return {};
-    const std::string share =
-        limit != 0 ? fmt::format(" ({} of the limit)", percentage(100 * std::abs(margin / limit))) : "";
+    constexpr double most_percent = 999; // beyond this, the amount alone is easier to read
+    const double percent = limit != 0 ? 100 * std::abs(margin / limit) : HUGE_VAL;
+    const std::string share = percent > most_percent ? "" : percentage(percent);
     const std::string amount = count ? grouped(static_cast<std::uint64_t>(std::abs(margin)))
                                      : fmt::format("{:.6g}", std::abs(margin));
-    if (margin >= 0) return margin == 0 ? "none" : fmt::format("{} to spare{}", amount, share);
-    if (count) return fmt::format("{} too {}{}", amount, below < above ? "many" : "few", share);
-    return fmt::format("{} too {}{}", amount, below < above ? "much" : "little", share);
+    if (margin == 0) return "exactly at the limit";
+    const bool of_maximum = below <= above;
+    if (margin > 0)
+        return fmt::format("{} {} the limit{}", amount, of_maximum ? "below" : "above",
+                           share.empty() ? "" : fmt::format(" (by {})", share));
+    const char* word = count ? (of_maximum ? "many" : "few") : of_maximum ? "much" : "little";
+    const std::string beyond =
+        share.empty() ? "" : fmt::format(" ({} {} the limit)", share, of_maximum ? "above" : "below");
+    return fmt::format("{} too {}{}", amount, word, beyond);
 }
 
 std::string locations_text(const Check& check) {
     if (!check.evidence || check.evidence->empty()) return {};
     const EvidenceEntry& first = check.evidence->front();
     if (!first.at) return shares_text(*check.evidence);
-    std::string text = "first ";
+    std::string text = "first: ";
     const std::string count =
         check.locations ? counted(static_cast<std::size_t>(*check.locations), "location") + ", " : "";
-    if (check.locations) text = count + "the first ";
-    if (check.fresh && *check.fresh > 0) text = count + fmt::format("{} new, the first ", *check.fresh);
+    if (check.locations) text = count + "first: ";
+    if (check.fresh && *check.fresh > 0) text = count + fmt::format("{} new, first: ", *check.fresh);
     return text + location_text(first);
 }
 

@@ -7,7 +7,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// [x, y, z]
+/// The point as [x, y, z].
 Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 void declare_box_corners(DeclareFields<Box>& d) {
@@ -79,7 +79,7 @@ const Fields& brief_fields() {
         d.field("vertices", &Brief::vertices, "");
         d.field("faces", &Brief::faces, "");
         d.object("bounds", bounds_of, "The axis-aligned box in world space.", declare_box_corners)
-            .null_when("there is nothing");
+            .null_when("the scene is empty");
     });
     return fields;
 }
@@ -202,13 +202,13 @@ Json evidence_json(const std::optional<CheckEvidence>& evidence) {
 
 const Fields& component_fields() {
     static const Fields fields = fields_of<Component>([](DeclareFields<Component>& d) {
-        d.field("part", &Component::part, "The part that it belongs to.");
+        d.field("part", &Component::part, "The part that contains the component.");
         d.embed(&Component::properties, [](DeclareFields<Properties>& p) {
             p.field("faces", &Properties::faces, "");
             p.field("euler", &Properties::euler, "");
             p.field("boundary_loops", &Properties::boundary_loops, "");
             p.field("closed", &Properties::closed, "");
-            p.field("genus", &Properties::genus, "Of a closed one.").null_when("it does not apply");
+            p.field("genus", &Properties::genus, "The genus.").null_when("the component is not closed");
         });
     });
     return fields;

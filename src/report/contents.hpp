@@ -16,12 +16,12 @@ const Fields& brief_fields();
 [[nodiscard]] Json found_json(const Found& found);
 /// The inverse of found_json; none for other JSON.
 [[nodiscard]] std::optional<Found> found_of(const Json& json);
-/// {"amplitude": {"given": "0.2%", "is": 0.03}}
+/// The lengths as JSON: {"amplitude": {"given": "0.2%", "is": 0.03}}.
 [[nodiscard]] Json resolved_json(const std::vector<ResolvedLength>& lengths);
 
-/// {min, max}; null for an empty box.
+/// The box as {min, max}; null for an empty box.
 [[nodiscard]] Json box_json(const Box& box);
-/// For a box that may be empty.
+/// The schema of a box that may be empty.
 [[nodiscard]] Json box_schema();
 
 /// An attribute that at least one part has.
@@ -56,7 +56,7 @@ struct Component {
                                                         std::size_t limit);
 const Fields& component_fields();
 
-/// [{part, at, face}], with the keys that the entries have; null without evidence.
+/// The evidence as [{part, at, face}], with the keys that the entries have; null without evidence.
 [[nodiscard]] Json evidence_json(const std::optional<CheckEvidence>& evidence);
 [[nodiscard]] Json evidence_json(const EvidenceEntry& entry);
 

@@ -40,7 +40,8 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
     settings.attribute = std::string(distance_attribute);
     settings.range = {ColourRange::Kind::given, -view.limit, view.limit, true};
     settings.edges = EdgeLines::no;
-    if (settings.camera) settings.camera = camera_of(scene, settings); // as large as in the view from behind
+    if (settings.camera)
+        settings.camera = camera_of(scene, settings); // uses the same size as in the view from behind
     view.picture = page_text(picture_of(scene, settings));
     settings.turn = pi;
     if (settings.camera) settings.camera = camera_of(scene, settings);
@@ -58,7 +59,7 @@ void take_pictures(const Scene& scene, PictureSettings settings, const Vec3& nor
 } // namespace
 
 double colour_limit(const std::vector<float>& distances, double most, double diagonal) {
-    constexpr double lost_by_floats = 1e-6; // of the diagonal: smaller distances get no colours
+    constexpr double lost_by_floats = 1e-6; // times the diagonal; smaller distances get no colours
     const double limit = limit_of(distances, most);
     return std::isfinite(diagonal) ? std::max(limit, lost_by_floats * diagonal) : limit;
 }

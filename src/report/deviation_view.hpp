@@ -12,22 +12,22 @@ struct EarlierSurface {
     std::string name; ///< "the scene as loaded"
     double diagonal = 0;
     const FaceTree& tree;
-    std::optional<Index> last_cap = {}; ///< SignedDeviationSettings::last_cap
+    std::optional<Index> last_cap = {}; ///< see SignedDeviationSettings::last_cap
 };
 
 /// Half the width of the colour scale for distances. It covers all distances; if at most a tenth of them are
 /// far off, only the rest, for better contrast. It is at least the rounding error of float32 positions.
-/// Distances beyond it have the colour of the end. most: the largest absolute distance. diagonal: of the
-/// scene.
+/// Distances beyond it have the colour of the end. most: the largest absolute distance. diagonal: the
+/// scene's diagonal.
 [[nodiscard]] double colour_limit(const std::vector<float>& distances, double most, double diagonal);
 
-/// A tree over an earlier surface for the about 100,000 distances of a page. bounds: of the surface, which
-/// must outlive the tree.
+/// A tree over an earlier surface for the about 100,000 distances of a page. bounds: the box of the surface,
+/// which must outlive the tree.
 [[nodiscard]] FaceTree tree_of_earlier(const Surface& surface, const Box& bounds);
 
-/// Both in world space and in the same pose. pictures: their size and camera; empty: only numbers. Throws
-/// like picture_of. O((vertices + faces) log n), for at most 20000 vertices or some tens of thousands of
-/// cells, and for cells around the worst position.
+/// Measures the deviation; both must be in world space and in the same pose. pictures: their size and
+/// camera; empty: only numbers. Throws the errors of picture_of. O((vertices + faces) log n), for at most
+/// 20000 vertices or some tens of thousands of cells, and for cells around the worst position.
 [[nodiscard]] DeviationView deviation_view(const Scene& scene, const EarlierSurface& from,
                                            const std::optional<PictureSettings>& pictures);
 

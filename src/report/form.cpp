@@ -15,7 +15,8 @@ ReportForm form_of(const std::string& path) {
     if (extension == ".xml") return ReportForm::junit;
     if (extension == ".txt") return ReportForm::text;
     throw Error(ErrorKind::usage, "E-REPORT",
-                fmt::format("a report is {}, found '{}'", report_suffixes, path));
+                fmt::format("a report is {}, found '{}'", report_suffixes, path),
+                fmt::format("give it a suffix: {}.html", std::filesystem::path(path).stem().string()));
 }
 
 } // namespace facetmill::report

@@ -7,10 +7,10 @@ namespace facetmill::report {
 
 enum class ReportForm { json, html, markdown, junit, text };
 
-/// As in help and messages.
+/// The suffixes, as in help and messages.
 inline constexpr const char* report_suffixes = ".json, .html, .md, .xml (JUnit) or .txt";
 
-/// The format for the report file's suffix. Throws usage (E-REPORT) for another suffix.
+/// The format for the report file's suffix. Throws a usage error (E-REPORT) for another suffix.
 ReportForm form_of(const std::string& path);
 
 } // namespace facetmill::report

@@ -60,13 +60,14 @@ std::string deviation_text(const RunRecord& record) {
             worst = own;
     if (!worst) return {};
     const double most = std::abs(worst->worst_distance);
-    const char* caps = worst->caps > 0 ? ", without caps" : "";
-    if (!(worst->diagonal > 0)) return fmt::format("{:.4g}{}", most, caps);
+    const char* uncounted =
+        worst->caps > 0 ? "caps and removed parts not counted" : "removed parts not counted";
+    if (!(worst->diagonal > 0)) return fmt::format("from {}: {:.4g} ({})", worst->from, most, uncounted);
     constexpr double float_step = 1.0 / (1 << 24); // half the relative distance of 32-bit floats
-    return fmt::format(
-        "{} of the diagonal, from {}{}{}{}", percentage(100 * most / worst->diagonal), worst->from, caps,
-        most > 0 && most < float_step * worst->diagonal ? "; less than 32-bit floats hold" : "",
-        "; what was left out of it does not count");
+    const bool is_rounding = most > 0 && most < float_step * worst->diagonal;
+    return fmt::format("from {}: {} of the diagonal{} ({})", worst->from,
+                       percentage(100 * most / worst->diagonal),
+                       is_rounding ? ", less than the rounding of 32-bit floats" : "", uncounted);
 }
 
 } // namespace facetmill::report

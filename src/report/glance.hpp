@@ -14,10 +14,10 @@ struct ByteSum {
 };
 [[nodiscard]] ByteSum sum_of(const std::vector<FileRecord>& files);
 
-/// "12.7 %": the share of the size before; "-" if that was zero.
+/// The share of the size before: "12.7 %", or "-" if that size was zero.
 [[nodiscard]] std::string part_of_before(std::uint64_t before, std::uint64_t after);
 
-/// After the first stage and after the last completed stage; empty without stages.
+/// The face counts after the first and after the last completed stage; empty without stages.
 struct FaceCounts {
     std::size_t first = 0, last = 0;
 };

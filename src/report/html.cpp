@@ -33,12 +33,13 @@ std::string verdict(const RunRecord& record) {
 std::string page(const RunRecord& record, const Json& view, bool with_times) {
     std::string out = html_begin(short_name(record.pipeline), record.about, record.pipeline);
     out += verdict(record) + glance_section(record, with_times);
-    out += table("Errors", heads({"id", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
-    out += table("Warnings", heads({"id", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
+    out += table("Errors", heads({"id", "message", "where", "hint"}), diagnostics(record.errors, "bad"));
+    out += table("Warnings", heads({"id", "message", "where", "hint"}), diagnostics(record.warnings, "warn"));
     out += check_section(record) + viewer_section(view) + output_sections(record) + stage_sections(record);
     if (with_times) out += times_section(record);
     out += file_sections(record);
-    out += table("Properties at the end", heads({"property", "value"}), value_rows(record.final_properties));
+    out += table("Properties of the final scene", heads({"property", "value"}),
+                 value_rows(record.final_properties));
     out += table("Parameters", heads({"name", "value"}), value_rows(record.params));
     return out + source_section(record) + html_end();
 }

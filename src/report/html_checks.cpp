@@ -29,7 +29,8 @@ std::string all_rows(const RunRecord& record) {
     for (const Check& c : record.checks)
         rows += fmt::format("<tr>{}{}{}{}{}{}{}</tr>\n", cell(outcome_badge(c)), cell(code(c.name)),
                             cell(escaped(c.expected)), cell(escaped(found_text(c))),
-                            cell(escaped(margin_text(c))), cell(escaped(c.part)), cell(escaped(c.stage)));
+                            cell(escaped(margin_text(c))), cell(escaped(subject_text(c))),
+                            cell(escaped(c.stage)));
     return rows;
 }
 
@@ -62,7 +63,7 @@ std::string places(const Check& c) {
         items += fmt::format("<li>{}</li>", escaped(evidence_text((*c.evidence)[i])));
     const std::size_t all = std::max(c.locations.value_or(0), c.evidence->size());
     const std::string more = all > shown ? fmt::format("<li>and {} more</li>", grouped(all - shown)) : "";
-    return fmt::format("<details><summary>places</summary><ul>{}{}</ul></details>\n", items, more);
+    return fmt::format("<details><summary>locations</summary><ul>{}{}</ul></details>\n", items, more);
 }
 
 std::string term(const char* name, const std::string& text) {
@@ -73,21 +74,21 @@ std::string picture_of_check(const Check& c, std::size_t number) {
     if (c.picture.empty()) return {};
     const std::size_t shown = failing_locations(c).size();
     const std::string some = c.locations.value_or(0) > shown
-                                 ? fmt::format("the first {} of {} places", shown, grouped(*c.locations))
-                                 : "all places";
-    const std::string caption = fmt::format("where '{}' does not hold: {}, and the first of them magnified, "
-                                            "its faces in red, without what would hide them",
-                                            c.name, some);
+                                 ? fmt::format("the first {} of {} locations", shown, grouped(*c.locations))
+                                 : "all locations";
+    const std::string caption = fmt::format("{} where '{}' fails; the close-up shows the first, with its "
+                                            "faces in red and without the faces that hide them",
+                                            some, c.name);
     return figure(picture(fmt::format("check-{}", number), caption, c.picture), caption, true);
 }
 
 std::string failure(const RunRecord& record, const Check& c, std::size_t number) {
     std::string terms = term("expected", c.expected) + term("found", found_text(c)) +
-                        term("margin", margin_text(c)) + term("part", c.part) +
+                        term("margin", margin_text(c)) + term("part", c.part) + term("file", c.file) +
                         term("evidence", locations_text(c)) + term("where", to_string(c.where)) +
-                        term("what helps", c.hint);
+                        term("hint", c.hint);
     if (const std::string mend = can_be_asked(c) ? mending(record, c) : ""; !mend.empty() && !c.passed)
-        terms += command_line("may help", mend);
+        terms += command_line("try", mend);
     if (!record.command.empty()) terms += command_line("reproduce", record.command);
     return fmt::format("<section class=\"check {}\">\n<h3>{} {} <span class=\"soft\">in {}</span></h3>\n"
                        "<dl>{}</dl>\n{}{}</section>\n",
@@ -104,10 +105,11 @@ std::string check_section(const RunRecord& record) {
     for (const Check& c : record.checks)
         if ((!c.passed || c.waived) && ++failures <= most) out += failure(record, c, failures);
     if (failures > most)
-        out += fmt::format("<p class=\"soft\">{} more are in the table.</p>\n", grouped(failures - most));
-    if (!out.empty()) out = "<h2>Checks that did not hold</h2>\n" + out;
+        out += fmt::format("<p class=\"soft\">{} more failed checks are in the table.</p>\n",
+                           grouped(failures - most));
+    if (!out.empty()) out = "<h2>Failed checks</h2>\n" + out;
     return out + table("Checks",
-                       heads({"outcome", "property", "expected", "found", "margin", "part", "stage"}),
+                       heads({"outcome", "property", "expected", "found", "margin", "part or file", "stage"}),
                        all_rows(record));
 }
 

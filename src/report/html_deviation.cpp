@@ -15,7 +15,7 @@ namespace facetmill::report {
 
 namespace {
 
-/// "0.012", with a sign, and without one of a zero.
+/// The number with its sign; zero has no sign.
 std::string signed_text(double x) { return x == 0 ? "0" : fmt::format("{:+.3g}", x); }
 
 std::string length_text(const DeviationView& view, double x) {
@@ -40,8 +40,8 @@ BarChart chart_of(const DeviationView& view, const std::string& id) {
         chart.ticks.emplace_back(at, signed_text((2 * at - 1) * view.limit));
     chart.scale = true;
     chart.description = fmt::format(
-        "Points of the surface by their signed distance, from {} inside to {} outside; their mean "
-        "amount is {}, the root mean square {}. Bars are drawn by the square root of their share.",
+        "Histogram of signed distances, from {} inside to {} outside. The mean absolute distance is {}, the "
+        "root mean square {}. The height of a bar is the square root of its share of the points.",
         length_text(view, view.low), length_text(view, view.high), length_text(view, view.mean),
         length_text(view, view.rms));
     return chart;
@@ -52,14 +52,16 @@ std::string number_rows(const DeviationView& view) {
         return fmt::format("<tr><th scope=\"row\">{}</th>{}</tr>\n", name, cell(escaped(text)));
     };
     return row("farthest inside", length_text(view, view.low)) +
-           row("farthest outside", length_text(view, view.high)) + row("mean", length_text(view, view.mean)) +
-           row("root mean square", length_text(view, view.rms)) + row("farthest at", readable(view.worst)) +
+           row("farthest outside", length_text(view, view.high)) +
+           row("mean absolute distance", length_text(view, view.mean)) +
+           row("root mean square", length_text(view, view.rms)) +
+           row("position of the farthest point", readable(view.worst)) +
            row("points measured", grouped(view.points));
 }
 
 std::string beyond_text(const DeviationView& view) {
     return std::max(-view.low, view.high) > view.limit * (1 + 1e-9)
-               ? " What is farther has the colour of the end."
+               ? " Larger distances have the colour of the end of the scale."
                : "";
 }
 
@@ -67,7 +69,7 @@ std::string caps_text(const DeviationView& view) {
     if (view.caps == 0) return {};
     return (view.caps == 1 ? " The face that closes a cut (cap) is"
                            : fmt::format(" The {} faces that close cuts (caps) are", grouped(view.caps))) +
-           fmt::format(" grey and not measured: {} has no surface there.", escaped(view.from));
+           fmt::format(" grey and not measured, because {} has no surface there.", escaped(view.from));
 }
 
 } // namespace
@@ -79,26 +81,27 @@ std::string deviation_html(const DeviationView& view, const std::string& id, con
     std::string out = "<div class=\"deviation\">\n";
     if (!view.picture.empty()) out += figure(picture(id + "-colours", caption, view.picture), caption);
     if (!view.behind.empty()) {
-        const std::string behind = fmt::format("{}: the same from behind", name);
+        const std::string behind = fmt::format("{}: seen from behind", name);
         out += figure(picture(id + "-behind", behind, view.behind), behind);
     }
     if (!view.close.empty()) {
-        const std::string worst = fmt::format("{}: the worst place, magnified ten times ({})", name,
+        const std::string worst = fmt::format("{}: the farthest point, magnified ten times ({})", name,
                                               length_text(view, view.worst_distance));
         out += figure(picture(id + "-worst", worst, view.close), worst);
     }
-    out += "<div class=\"wide\">" + svg_of(chart_of(view, id)) +
-           fmt::format(
-               "<p class=\"soft\">Signed distance{}, the scale of the colours above. Percentages are of the "
-               "diagonal of {}.{}{}{} What {} has and {} lost is not seen here. Stages and verdicts look at "
-               "more points, and may find one that is farther.</p>\n",
-               view.unit.empty() ? "" : " in " + escaped(view.unit),
-               escaped(whole.empty() ? view.from : whole), beyond_text(view), caps_text(view),
-               view.posed ? " Both are in the pose that the pictures show; what stages and checks measure is "
-                            "in bind pose."
-                          : "",
-               escaped(view.from), escaped(name)) +
-           subtable("Distances", "", number_rows(view)) + "</div>\n";
+    out +=
+        "<div class=\"wide\">" + svg_of(chart_of(view, id)) +
+        fmt::format(
+            "<p class=\"soft\">The histogram shows signed distances{} and is the scale of the colours "
+            "above. Percentages refer to the diagonal of {}.{}{}{} Surfaces of {} that are missing in {} are "
+            "not measured. Stages and checks measure more points, so their maximum may be larger.</p>\n",
+            view.unit.empty() ? "" : " in " + escaped(view.unit), escaped(whole.empty() ? view.from : whole),
+            beyond_text(view), caps_text(view),
+            view.posed ? " Both surfaces are in the pose of the pictures, but stages and checks measure them "
+                         "in bind pose."
+                       : "",
+            escaped(view.from), escaped(name)) +
+        subtable("Distances", "", number_rows(view)) + "</div>\n";
     return out + "</div>\n";
 }
 

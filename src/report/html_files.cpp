@@ -28,8 +28,8 @@ std::string rows_of(const std::vector<FileRecord>& files) {
                         kind_cells(f.kinds), cell("<span class=\"digest\">" + code(f.sha256) + "</span>"));
     if (files.size() < 2) return rows;
     const ByteSum sum = sum_of(files);
-    return rows + fmt::format("<tr class=\"sum\">{}{}{}{}</tr>\n", cell("all"), number_cell(sized(sum.bytes)),
-                              kind_cells(sum.kinds), cell(""));
+    return rows + fmt::format("<tr class=\"sum\">{}{}{}{}</tr>\n", cell("total"),
+                              number_cell(sized(sum.bytes)), kind_cells(sum.kinds), cell(""));
 }
 
 std::string before_and_after(const RunRecord& record) {
@@ -39,23 +39,23 @@ std::string before_and_after(const RunRecord& record) {
         return fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", what, number_cell(sized(before)),
                            number_cell(sized(after)), number_cell(part_of_before(before, after)));
     };
-    return table("Bytes", heads({"kind", "#inputs", "#outputs", "#share"}),
+    return table("Bytes", heads({"kind", "#inputs", "#outputs", "#ratio"}),
                  row("geometry", in.kinds.geometry, out.kinds.geometry) +
                      row("textures", in.kinds.textures, out.kinds.textures) +
-                     row("JSON", in.kinds.json, out.kinds.json) + row("all", in.bytes, out.bytes));
+                     row("JSON", in.kinds.json, out.kinds.json) + row("total", in.bytes, out.bytes));
 }
 
 std::string read_back_tables(const std::vector<FileRecord>& outputs) {
     std::string out;
     for (const FileRecord& f : outputs)
         if (f.read_back.is_object())
-            out +=
-                fmt::format("<details><summary>{} read back: {} faces, {} vertices, positions within {}"
-                            "</summary>{}</details>\n",
-                            path_code(f.path), grouped(f.read_back.value("faces", std::uint64_t{0})),
-                            grouped(f.read_back.value("vertices", std::uint64_t{0})),
-                            readable(f.read_back.value("position_error", 0.0)),
-                            subtable("Read back", heads({"name", "value"}), value_rows(f.read_back), "h3"));
+            out += fmt::format(
+                "<details><summary>{} read back: {} faces, {} vertices, positions within {} of the scene"
+                "</summary>{}</details>\n",
+                path_code(f.path), grouped(f.read_back.value("faces", std::uint64_t{0})),
+                grouped(f.read_back.value("vertices", std::uint64_t{0})),
+                readable(f.read_back.value("position_error", 0.0)),
+                subtable("Read back", heads({"name", "value"}), value_rows(f.read_back), "h3"));
     return out;
 }
 

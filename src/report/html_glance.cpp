@@ -34,8 +34,8 @@ std::string glance_section(const RunRecord& record, bool with_time) {
     row("warnings", grouped(warning_count(record)));
     row("time", with_time
                     ? fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory))
-                    : "not here, so that the same run gives the same page; " + code("--timings page.html") +
-                          " writes it with times and memory");
+                    : "left out so that reports are reproducible; " + code("--timings page.html") +
+                          " adds times and memory");
     return table("At a glance", "", rows);
 }
 

@@ -63,17 +63,26 @@ std::string shape_html(const OutputView& view, std::size_t number) {
         out += chart_text(rows[i], fmt::format("shape-{}-{}", number, i), view.input_faces > 0);
     }
     out = "<div class=\"charts\">\n" + out + "</div>\n";
-    std::string note = view.input_faces > 0 ? "Bars: the output; the line: the input as loaded. " : "";
-    note += "By the share of all, edges and aspect ratios on a scale by powers of two.";
+    std::string note = view.input_faces > 0 ? "Bars show the output, the line shows the input. " : "";
+    note += "Heights are shares of all elements. Edge lengths and aspect ratios have a logarithmic scale.";
     if (view.shape.flat_faces > 0)
         note += fmt::format(" {} faces without area have no aspect ratio.", grouped(view.shape.flat_faces));
     return out + fmt::format("<p class=\"soft\">{}</p>\n", note);
 }
 
-std::string one_output(const OutputView& view, std::size_t number) {
-    std::string out = fmt::format(
-        "<section class=\"stage\">\n<h3>{}</h3>\n<p>{} faces{}</p>\n", escaped_path(view.name),
-        grouped(view.faces), view.input_faces > 0 ? fmt::format(" of {}", grouped(view.input_faces)) : "");
+/// ", 1.2 MB" if a file has the view's name.
+std::string size_of(const OutputView& view, const std::vector<FileRecord>& files) {
+    for (const FileRecord& file : files)
+        if (file.path == view.name) return ", " + sized(file.bytes);
+    return {};
+}
+
+std::string one_output(const OutputView& view, const RunRecord& record, std::size_t number) {
+    std::string out =
+        fmt::format("<section class=\"stage\">\n<h3>{}</h3>\n<p>{} faces{}{}</p>\n", escaped_path(view.name),
+                    grouped(view.faces),
+                    view.input_faces > 0 ? fmt::format(" (input: {})", grouped(view.input_faces)) : "",
+                    size_of(view, record.outputs));
     if (view.deviation)
         out += deviation_html(*view.deviation, fmt::format("output-{}", number), view.name);
     else if (!view.no_deviation.empty())
@@ -86,7 +95,7 @@ std::string one_output(const OutputView& view, std::size_t number) {
 
 std::string output_sections(const RunRecord& record) {
     std::string out;
-    for (std::size_t i = 0; i < record.views.size(); ++i) out += one_output(record.views[i], i + 1);
+    for (std::size_t i = 0; i < record.views.size(); ++i) out += one_output(record.views[i], record, i + 1);
     return out.empty() ? out : "<h2>Results</h2>\n" + out;
 }
 

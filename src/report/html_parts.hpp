@@ -9,15 +9,15 @@
 
 namespace facetmill::report {
 
-/// From the doctype to the title; title and about are plain text. whole: the full path if title is shortened;
-/// else empty.
+/// From the doctype to the title; title and about are plain text. whole: the full path if title is
+/// shortened, otherwise empty.
 [[nodiscard]] std::string html_begin(const std::string& title, const std::string& about,
                                      const std::string& whole = {});
 /// The version, and the end of the page.
 [[nodiscard]] std::string html_end();
 
 [[nodiscard]] std::string code(const std::string& text);
-/// The same for a path.
+/// A path in code style.
 [[nodiscard]] std::string path_code(const std::string& path);
 [[nodiscard]] std::string cell(const std::string& html);
 [[nodiscard]] std::string number_cell(const std::string& html);
@@ -26,7 +26,7 @@ namespace facetmill::report {
 /// A picture above its caption; wide: full page width.
 [[nodiscard]] std::string figure(const std::string& picture, const std::string& caption, bool wide = false);
 /// A figure with a slider between the picture and an earlier picture with that id and the same camera, which
-/// is shown on the left. name: of the later picture.
+/// is shown on the left. name: the name of the later picture.
 [[nodiscard]] std::string compared_figure(const std::string& picture, const std::string& before_id,
                                           const std::string& name, const std::string& caption);
 /// A paragraph for each omitted part of pictures, with the reason; empty for an empty list.

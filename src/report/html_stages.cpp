@@ -76,7 +76,7 @@ std::string list_table(const std::string& title, const Json& list) {
     }
     const std::string rest =
         list.size() > most
-            ? fmt::format("<p class=\"soft\">{} more are in the JSON report.</p>\n", list.size() - most)
+            ? fmt::format("<p class=\"soft\">{} more rows are in the JSON report.</p>\n", list.size() - most)
             : "";
     return subtable(title, header, body) + rest;
 }
@@ -124,7 +124,7 @@ std::string details(const StageRecord& stage) {
 
 /// "232,484 -> 23,308 faces (10 %), 11,656 vertices"
 std::string counts(const StageRecord& stage) {
-    if (stage.skipped) return "skipped: its `when` did not hold";
+    if (stage.skipped) return "skipped: its condition (when) was false";
     if (!stage.after) return stage.before ? grouped(stage.before->faces) + " faces, then failed" : "failed";
     const std::size_t before = stage.before ? stage.before->faces : 0, after = stage.after->faces;
     const std::string vertices = grouped(stage.after->vertices) + " vertices";
@@ -154,7 +154,7 @@ std::string picture_of(const RunRecord& record, std::size_t number, std::size_t&
     if (!before || stage.camera == 0 || stage.camera != before->camera)
         return figure(shown(caption), caption);
     return compared_figure(shown(caption), before_id, stage.name,
-                           fmt::format("{}; left of the slider before ({})", caption, before->name));
+                           fmt::format("{}; left of the slider: after {}", caption, before->name));
 }
 
 std::string section(const RunRecord& record, std::size_t number, std::size_t& last) {
@@ -191,8 +191,8 @@ std::string stage_sections(const RunRecord& record) {
     if (out.empty()) return out;
     out += not_drawn_html(record.not_drawn);
     return fmt::format(
-        "<h2>Stages</h2>\n{}<p class=\"soft\">Each stage that changed what is seen has a picture. "
-        "The inner side of a surface is orange. Distances of a single stage are shown of scenes of up to "
+        "<h2>Stages</h2>\n{}<p class=\"soft\">Each stage that changed the visible scene has a picture. "
+        "The inside of a surface is orange. Distances of a single stage are shown for scenes of up to "
         "500,000 faces.{}{}</p>\n",
         out, record.pictures_shrunk ? " Later pictures are smaller, so that the page stays below 3 MB." : "",
         record.pictures_left_out > 0

@@ -32,12 +32,14 @@ std::string times_section(const RunRecord& record) {
         stages += stage.seconds;
         if (!stage.skipped) row(escaped(stage.name), stage.seconds, stage.peak_memory);
     }
-    row("<em>all else, pictures of this page too</em>", std::max(0.0, record.seconds - stages), 0);
-    row("<strong>all</strong>", record.seconds, record.peak_memory);
+    row("<em>everything else, including the pictures of this page</em>",
+        std::max(0.0, record.seconds - stages), 0);
+    row("<strong>total</strong>", record.seconds, record.peak_memory);
     return table("Time and memory", heads({"stage", "#time", "#share", "", "#peak memory so far"}), rows) +
-           fmt::format("<p class=\"soft\">On {} {}. These numbers differ from run to run, so reports "
-                       "leave them out. What came from the cache took no time.</p>\n",
-                       record.threads, record.threads == 1 ? "thread" : "threads");
+           fmt::format(
+               "<p class=\"soft\">Measured on {} {}. These numbers differ from run to run, so reports "
+               "leave them out. Results from the cache take almost no time.</p>\n",
+               record.threads, record.threads == 1 ? "thread" : "threads");
 }
 
 std::string source_section(const RunRecord& record) {
@@ -51,7 +53,8 @@ std::string source_section(const RunRecord& record) {
     if (record.text.empty()) return out;
     out += text("Pipeline", record.text.substr(0, most));
     if (record.text.size() > most)
-        out += fmt::format("<p class=\"soft\">{} more are left out.</p>\n", sized(record.text.size() - most));
+        out += fmt::format("<p class=\"soft\">The remaining {} are left out.</p>\n",
+                           sized(record.text.size() - most));
     return out;
 }
 

@@ -11,7 +11,7 @@ namespace {
 std::string check_case(const Check& check) {
     const std::string head =
         fmt::format("    <testcase classname=\"{}\" name=\"{}{}\"", escaped(check.stage), escaped(check.name),
-                    check.part.empty() ? "" : escaped(fmt::format(" [{}]", check.part)));
+                    subject_text(check).empty() ? "" : escaped(fmt::format(" [{}]", subject_text(check))));
     if (check.passed && !check.waived) return head + "/>\n";
     const std::string locations = locations_text(check);
     const std::string said = escaped(fmt::format("expected {}, found {}{}", check.expected, found_text(check),

@@ -26,7 +26,7 @@ void add_diagnostics(const Diagnostics& all, const char* kind, MarkdownRows& row
         rows.push_back({kind, markdown_escaped(d.id), markdown_escaped(d.message), markdown_escaped(d.hint)});
 }
 
-/// Without failed checks, which have a separate table.
+/// The messages except failed checks, which have a separate table.
 MarkdownRows message_rows(const RunRecord& record) {
     MarkdownRows rows;
     std::vector<RunError> errors;
@@ -43,9 +43,9 @@ MarkdownRows failed_rows(const RunRecord& record) {
     MarkdownRows rows;
     for (const auto& c : record.checks) {
         if (c.passed && !c.waived) continue;
-        rows.push_back({outcome(c), markdown_escaped(c.name), markdown_escaped(c.expected),
-                        markdown_escaped(found_text(c)), markdown_escaped(locations_text(c)),
-                        markdown_escaped(c.hint)});
+        rows.push_back({outcome(c), markdown_escaped(c.file.empty() ? c.name : c.name + " of " + c.file),
+                        markdown_escaped(c.expected), markdown_escaped(found_text(c)),
+                        markdown_escaped(locations_text(c)), markdown_escaped(c.hint)});
     }
     return rows;
 }
@@ -75,9 +75,9 @@ MarkdownRows glance_rows(const RunRecord& record) {
                         any_in && any_out ? part_of_before(before, after) : "-"});
     };
     add("bytes", in.bytes, out.bytes);
-    add("of geometry", in.kinds.geometry, out.kinds.geometry);
-    add("of textures", in.kinds.textures, out.kinds.textures);
-    add("of JSON", in.kinds.json, out.kinds.json);
+    add("bytes of geometry", in.kinds.geometry, out.kinds.geometry);
+    add("bytes of textures", in.kinds.textures, out.kinds.textures);
+    add("bytes of JSON", in.kinds.json, out.kinds.json);
     return rows;
 }
 
@@ -106,13 +106,12 @@ std::string to_markdown(const RunRecord& record) {
     if (!record.checks.empty()) out += fmt::format(", {} checks passed", passed_text(record));
     out += "\n";
     if (const std::string deviation = deviation_text(record); !deviation.empty())
-        out += fmt::format("\nDeviation: {}\n", markdown_escaped(deviation));
-    out += markdown_table("At a glance", {"", "inputs", "outputs", "share"}, glance_rows(record));
+        out += fmt::format("\nDeviation {}\n", markdown_escaped(deviation));
+    out += markdown_table("At a glance", {"", "inputs", "outputs", "ratio"}, glance_rows(record));
     out += markdown_table("Errors and warnings", {"kind", "id", "message", "hint"}, message_rows(record));
-    out += markdown_table("Checks that did not hold",
-                          {"outcome", "property", "expected", "found", "locations", "hint"},
+    out += markdown_table("Failed checks", {"outcome", "property", "expected", "found", "locations", "hint"},
                           failed_rows(record));
-    out += markdown_table("Stages", {"stage", "faces before", "after", "what it did"}, stage_rows_of(record));
+    out += markdown_table("Stages", {"stage", "faces before", "faces after", "notes"}, stage_rows_of(record));
     out += markdown_table("Outputs", {"file", "size", "SHA-256"}, output_rows(record));
     return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
 }

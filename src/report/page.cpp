@@ -57,7 +57,7 @@ std::shared_ptr<Page::Reference> Page::reference_to(const Scene& scene, std::str
 
 bool Page::is_full() const { return bytes_ > most_bytes; }
 
-/// part: relative to the largest pictures.
+/// part: the size relative to the largest pictures.
 PictureSettings Page::sized_for_page(double part) const {
     PictureSettings settings = page_settings();
     if (bytes_ > bytes_of_large) {
@@ -117,7 +117,7 @@ DeviationView Page::distances(const Scene& scene, Reference& from) {
     std::optional<PictureSettings> settings; // empty: only numbers
     if (with_pictures_ && is_full()) record_.pictures_left_out += 3;
     if (with_pictures_ && !is_full()) {
-        settings = sized_for_page(0.75); // three side by side
+        settings = sized_for_page(0.75); // three pictures are side by side
         settings->camera = camera_for(seen);
     }
     Shown& earlier = *from.shown;
@@ -133,7 +133,8 @@ void Page::before(const PageStep& step, const Scene& scene) {
     if (step.loads || !step.measures || measured_stages_ >= most_measured) return;
     if (scene.face_count() > most_faces_of_a_stage) return;
     entering_ = reference_to(scene, fmt::format("the scene before '{}'", step.name));
-    if (loaded_ && loaded_->shown->is_same(*entering_->shown)) entering_->shown = loaded_->shown; // one tree
+    if (loaded_ && loaded_->shown->is_same(*entering_->shown))
+        entering_->shown = loaded_->shown; // both share a tree
 }
 
 void Page::after(const PageStep& step, const Scene& scene, StageRecord& stage, std::size_t first_output) {
@@ -160,7 +161,7 @@ void Page::after(const PageStep& step, const Scene& scene, StageRecord& stage, s
 
 void Page::set_loaded(const PageStep& step, const Scene& scene) {
     if (!step.loads && !step.moves) return;
-    loaded_ = reference_to(scene, step.loads ? std::string("the scene as loaded")
+    loaded_ = reference_to(scene, step.loads ? std::string("the input")
                                              : fmt::format("the scene after '{}'", step.name));
     if (with_pictures_) loaded_->shape = shape_histograms(scene);
 }
@@ -193,11 +194,11 @@ void Page::add_result(const std::string& name, const Scene& scene) {
         view.input_faces = loaded_->faces;
         auto now = std::make_shared<const Shown>(scene);
         if (now->surface().size() == 0 || loaded_->shown->surface().size() == 0)
-            view.no_deviation = "There are no distances: one of the scenes is empty.";
+            view.no_deviation = "No distances were measured, because one of the scenes is empty.";
         else if (now->is_same(*loaded_->shown))
-            view.no_deviation = fmt::format("Its surface is that of {}.", loaded_->name);
+            view.no_deviation = fmt::format("The surface is unchanged from {}.", loaded_->name);
         else if (shown_ && now->is_same(*shown_) && shown_from_->is_same(*loaded_->shown)) {
-            view.no_deviation = fmt::format("How far it is from {} is shown {}.", loaded_->name, shown_at_);
+            view.no_deviation = fmt::format("The distances from {} are shown {}.", loaded_->name, shown_at_);
             view.same_as = shown_stage_;
             view.differs = true;
         } else {
@@ -251,7 +252,7 @@ bool Page::differs(const std::string& name) const {
 }
 
 void Page::at_end(const Scene& scene) {
-    if (record_.views.empty()) add_result("the scene at the end", scene);
+    if (record_.views.empty()) add_result("the final scene", scene);
 }
 
 } // namespace facetmill::report

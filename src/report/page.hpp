@@ -19,7 +19,7 @@ struct PageStep {
 };
 
 /// Collects this data during a run. Pictures become smaller, and are finally omitted, to keep the page below
-/// 3 MB; the record notes it. Calls throw like picture_of (limit).
+/// 3 MB; the record notes it. Calls throw the errors of picture_of (limit).
 class Page {
   public:
     /// digest: equal for equal scenes.
@@ -76,7 +76,7 @@ class Page {
     void measure(const PageStep& step, const Scene& scene, std::size_t first_output);
     /// Adds pictures of the failed checks from first_check on; if the run ends there, also its scene.
     void failures(const std::string& step, const Scene& scene, std::size_t first_check);
-    /// True if the result of that name, or the final scene, differs from the reference.
+    /// True if the result with this name, or the final scene, differs from the reference.
     bool differs(const std::string& name) const;
     /// Call it at the end if nothing was written.
     void at_end(const Scene& scene);
@@ -96,15 +96,15 @@ class Page {
     std::function<std::string(const Scene&)> digest_;
     bool with_pictures_ = true;
     std::shared_ptr<Reference> loaded_, entering_;
-    std::shared_ptr<const Shown> shown_, shown_from_; ///< of the last distances: the scene and its reference
+    std::shared_ptr<const Shown> shown_, shown_from_; ///< the scene of the last distances, and its reference
     std::string shown_at_, shown_stage_; ///< where they are shown, and the stage's name if it is a stage
-    std::string last_picture_;           ///< as base64
+    std::string last_picture_;           ///< the last picture, in base64
     /// Vertices and faces of its scene, with the digest if it was computed.
     std::optional<std::pair<std::size_t, std::size_t>> pictured_size_;
     std::string pictured_;
     Camera camera_;
-    UpAxis camera_up_{};             ///< of its scene
-    int cameras_ = 0;                ///< number so far
+    UpAxis camera_up_{};             ///< up axis of its scene
+    int cameras_ = 0;                ///< number of cameras so far
     io::MaterialResolver materials_; ///< decodes textures of pictures once
     std::size_t bytes_ = 0, measured_stages_ = 0, failures_shown_ = 0;
 };

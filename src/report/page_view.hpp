@@ -6,7 +6,7 @@
 
 namespace facetmill::report {
 
-/// Collects these scenes during a run. Calls throw like picture_of (limit).
+/// Collects these scenes during a run. Calls throw the errors of picture_of (limit).
 class PageView {
   public:
     /// expected: the approximate number of outputs. Uses the page's textures and references.
@@ -16,7 +16,7 @@ class PageView {
     void before(const Scene& scene);
     /// Adds a written scene; call it after the page has it. Shows its distances from the page's reference if
     /// they differ.
-    void written(const Scene& scene, const std::string& path) { add(scene, path); }
+    void written(const Scene& scene, const std::string& path);
     /// Adds the scene at a failed check of that stage.
     void failed(const std::string& name, const Scene& scene);
     /// Adds the final scene if nothing was written.
@@ -25,7 +25,7 @@ class PageView {
     Json json() const { return viewed_.json(); }
 
   private:
-    void add(const Scene& scene, const std::string& name);
+    void add(const Scene& scene, const std::string& name, UpAxis file_up = UpAxis::unknown);
     std::shared_ptr<const ResolvedMaterials> materials(const Scene& scene);
 
     ViewedScenes viewed_;

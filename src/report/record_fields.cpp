@@ -77,32 +77,35 @@ void declare_change(DeclareFields<PartChange>& d) {
         for (const Kind kind : {Kind::kept, Kind::interpolated, Kind::recomputed, Kind::dropped})
             kinds.push_back({to_string(kind), kind, ""});
         c.choice("change", &AttributeChange::kind, kinds, "");
-        c.field("why", unless_empty(&AttributeChange::why), "The reason.").null_when("it needs none");
+        c.field("why", unless_empty(&AttributeChange::why), "The reason.")
+            .null_when("the change needs no reason");
     });
 }
 
 void declare_stage(DeclareFields<StageRecord>& d) {
     const auto brief = [](DeclareFields<Brief>& b) { b.fields = brief_fields(); };
-    d.field("name", &StageRecord::name, "Unique in the run");
+    d.field("name", &StageRecord::name, "The name of the step, unique in the run.");
     d.field("stage", &StageRecord::stage, "");
-    d.field("path", &StageRecord::path, "Where in the pipeline: stages[5].branch.far[0]");
-    d.field("skipped", &StageRecord::skipped, "Its `when` did not hold");
+    d.field("path", &StageRecord::path, "The position in the pipeline, for example stages[5].branch.far[0].");
+    d.field("skipped", &StageRecord::skipped,
+            "Whether the stage was skipped because its condition (when) was false.");
     refer(d.object("before", &StageRecord::before, "", brief), "brief");
     refer(d.object("after", &StageRecord::after, "", brief), "brief");
-    d.field("options", as_it_is(&StageRecord::options), "As they held: given, or by default").field().schema =
+    d.field("options", as_it_is(&StageRecord::options), "All options, including defaults.").field().schema =
         fields::schema_of_type("object");
-    d.field("resolved", &StageRecord::resolved, "Lengths that depended on the scene");
-    d.list("attribute_changes", &StageRecord::attribute_changes, "What each attribute went through",
+    d.field("resolved", &StageRecord::resolved,
+            "Lengths that depend on the scene, such as percentages, in scene units.");
+    d.list("attribute_changes", &StageRecord::attribute_changes, "The change of each attribute.",
            declare_change);
-    refer(d.list("warnings", &StageRecord::warnings, "What the stage warned of",
+    refer(d.list("warnings", &StageRecord::warnings, "The warnings of the stage.",
                  declare_diagnostic<Diagnostic>),
           "diagnostic");
-    d.field("result", as_it_is(&StageRecord::result), "What the stage itself reports").field().schema =
+    d.field("result", as_it_is(&StageRecord::result), "The results of the stage.").field().schema =
         fields::schema_of_type("object");
 }
 
 void declare_check(DeclareFields<Check>& d) {
-    d.field("name", &Check::name, "The property");
+    d.field("name", &Check::name, "The name of the property.");
     d.field("stage", &Check::stage, "");
     d.field("passed", &Check::passed, "");
     d.choice(
@@ -111,19 +114,24 @@ void declare_check(DeclareFields<Check>& d) {
         "");
     d.field("expected", &Check::expected, "");
     d.field("found", &Check::found,
-            "A number, a truth, a word, a box {min, max} or names; null: it does not apply");
-    d.field("hint", unless_empty(&Check::hint), "The stage that fixes it.")
-        .null_when("it held, or no stage does");
-    d.field("part", unless_empty(&Check::part), "The part that it refers to.").null_when("that is the scene");
+            "The value: a number, true or false, a word, a box {min, max} or a list of names. Null when the "
+            "property does not apply.");
+    d.field("hint", unless_empty(&Check::hint), "A stage that may fix it.")
+        .null_when("the check passed, or no stage fixes it");
+    d.field("part", unless_empty(&Check::part), "The checked part.").null_when("the whole scene was checked");
+    d.field("file", unless_empty(&Check::file), "The written file that was read back and checked.")
+        .null_when("the scene in memory was checked");
     d.field(
         "where", [](const Check& c) { return unless_empty(facetmill::to_string(c.where)); },
-        "Its position in the pipeline.");
-    d.field("waived", &Check::waived, "It failed, and the baseline lists the failure");
-    d.field("locations", &Check::locations, "The number of locations that violate it.")
-        .null_when("they are not counted, or it held");
-    d.field("new_locations", &Check::fresh, "The number of them that are not in the baseline.")
+        "The position in the pipeline file.");
+    d.field("waived", &Check::waived,
+            "Whether the baseline lists this failure, so that it does not fail the run.");
+    d.field("locations", &Check::locations, "The number of failing locations.")
+        .null_when("locations are not counted, or the check passed");
+    d.field("new_locations", &Check::fresh, "The number of failing locations that are not in the baseline.")
         .null_when("there is no baseline");
-    d.field("evidence", &Check::evidence, "The first locations, or the worst values.").null_when("it held");
+    d.field("evidence", &Check::evidence, "The first locations, or the worst values.")
+        .null_when("the check passed");
 }
 
 /// read_back: true for outputs.
@@ -131,13 +139,13 @@ void declare_file(DeclareFields<FileRecord>& d, bool read_back) {
     d.field("path", &FileRecord::path, "");
     d.field("bytes", &FileRecord::bytes, "");
     d.field("sha256", &FileRecord::sha256, "").field().schema["pattern"] = "^([0-9a-f]{64})?$";
-    d.object("contents", &FileRecord::kinds, "What its bytes are spent on.",
+    d.object("contents", &FileRecord::kinds, "The bytes of the file by content.",
              [](DeclareFields<io::ByteKinds>& k) {
                  k.field("geometry", &io::ByteKinds::geometry, "Bytes of meshes, animations and skins.");
                  k.field("textures", &io::ByteKinds::textures, "Bytes of images.");
-                 k.field("json", &io::ByteKinds::json, "Bytes of JSON, or of a file of materials.");
+                 k.field("json", &io::ByteKinds::json, "Bytes of JSON or of a material file.");
              })
-        .null_when("it is not a file of a mesh");
+        .null_when("the file does not belong to a mesh");
     if (read_back)
         d.field("read_back", as_it_is(&FileRecord::read_back), "The result of reading the written file back");
 }
@@ -146,23 +154,26 @@ void declare_run(DeclareFields<RunRecord>& d) {
     declare_format(d);
     declare_tool(d);
     d.field("pipeline", &RunRecord::pipeline, "");
-    d.field("about", unless_empty(&RunRecord::about), "What the pipeline says it is for.")
-        .null_when("it does not say");
+    d.field("about", unless_empty(&RunRecord::about), "The purpose, as written in the pipeline.")
+        .null_when("the pipeline does not state it");
     d.field(
         "passed", [](const RunRecord& r) { return r.exit_code == 0; }, "");
     d.field("exit_code", &RunRecord::exit_code, "");
-    refer(d.list("errors", &RunRecord::errors, "Why it failed", declare_diagnostic<RunError>), "diagnostic");
-    refer(d.list("warnings", &RunRecord::warnings, "Of the run as a whole", declare_diagnostic<Diagnostic>),
+    refer(d.list("errors", &RunRecord::errors, "The errors of the run.", declare_diagnostic<RunError>),
+          "diagnostic");
+    refer(d.list("warnings", &RunRecord::warnings, "Warnings that are not listed with a stage.",
+                 declare_diagnostic<Diagnostic>),
           "diagnostic");
     d.field("params", as_it_is(&RunRecord::params), "").field().schema = fields::schema_of_type("object");
-    d.list("inputs", &RunRecord::inputs, "Files that were read",
+    d.list("inputs", &RunRecord::inputs, "The files that were read.",
            [](DeclareFields<FileRecord>& f) { declare_file(f, false); });
-    refer(d.list("stages", &RunRecord::stages, "In the order they ran", declare_stage), "stage");
-    refer(d.list("checks", &RunRecord::checks, "What validate and ensure asked", declare_check), "check");
-    d.list("outputs", &RunRecord::outputs, "Files that were written; none when the run failed",
+    refer(d.list("stages", &RunRecord::stages, "The stages, in the order in which they ran.", declare_stage),
+          "stage");
+    refer(d.list("checks", &RunRecord::checks, "The checks of validate and ensure.", declare_check), "check");
+    d.list("outputs", &RunRecord::outputs, "The files that were written. Empty when the run failed.",
            [](DeclareFields<FileRecord>& f) { declare_file(f, true); });
     d.field("properties", as_it_is(&RunRecord::final_properties),
-            "Of the scene at the end; null when the run failed before it")
+            "The properties of the final scene. Null when the run failed before its end.")
         .field()
         .schema = {{"anyOf", Json::array({reference("scene"), typed("null")})}};
 }
@@ -171,13 +182,14 @@ void declare_timings(DeclareFields<RunRecord>& d) {
     declare_format(d);
     d.field("pipeline", &RunRecord::pipeline, "");
     d.field("seconds", &RunRecord::seconds, "");
-    d.field("peak_memory", &RunRecord::peak_memory, "Bytes");
+    d.field("peak_memory", &RunRecord::peak_memory, "The peak memory of the run, in bytes.");
     d.field("threads", &RunRecord::threads, "");
-    d.list("stages", &RunRecord::stages, "In the order of the report's stages",
+    d.list("stages", &RunRecord::stages, "The stages, in the order of the report.",
            [](DeclareFields<StageRecord>& s) {
                s.field("name", &StageRecord::name, "");
                s.field("seconds", &StageRecord::seconds, "");
-               s.field("peak_memory", &StageRecord::peak_memory, "Bytes, of the process until its end");
+               s.field("peak_memory", &StageRecord::peak_memory,
+                       "The peak memory of the process up to the end of the stage, in bytes.");
            });
 }
 
@@ -210,9 +222,9 @@ const Fields& diagnostic_fields() {
         d.field("message", &Diagnostic::message, "");
         d.field(
             "where", [](const Diagnostic& it) { return unless_empty(facetmill::to_string(it.where)); },
-            "The place that it is about.");
+            "The position in a file.");
         d.field(
-            "hint", [](const Diagnostic& it) { return unless_empty(it.hint); }, "What to do about it.");
+            "hint", [](const Diagnostic& it) { return unless_empty(it.hint); }, "How to solve the problem.");
     });
     return fields;
 }

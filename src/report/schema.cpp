@@ -35,9 +35,10 @@ Json scene_schema() {
     properties["bounds"] = box_schema();
     for (const auto& p : property_table())
         if (p.of_scene() && p.words) properties[std::string(p.name)] = words_schema(p);
-    properties["attributes"] = list_of(attribute_fields().schema(), "Each attribute once");
-    properties["materials"] = list_of(typed("string"), "Names of the materials");
-    properties["parts"] = list_of(part_fields().schema(), "The parts, in order");
+    properties["attributes"] =
+        list_of(attribute_fields().schema(), "The attributes of all parts, each listed once.");
+    properties["materials"] = list_of(typed("string"), "The names of the materials.");
+    properties["parts"] = list_of(part_fields().schema(), "The parts, in the order of the scene.");
     Json scene = closed_object(std::move(properties));
     for (const auto& p : property_table()) // present if requested, or if the scene has any
         if (p.on_request() || p.where_any) scene["properties"][std::string(p.name)] = value_schema(p);
@@ -66,11 +67,11 @@ Json schema() {
 Json info_schema() {
     Json out = {{"$schema", schema_dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
-    scene["properties"]["file"] = typed("string", "The file, as given");
+    scene["properties"]["file"] = typed("string", "The path of the file, as given.");
     scene["properties"]["components_detail"] =
-        list_of(component_fields().schema(), "The components with most faces, the largest first");
+        list_of(component_fields().schema(), "The components with the most faces, largest first.");
     scene["properties"]["components_omitted"] =
-        typed("integer", "How many components there are beyond those of components_detail");
+        typed("integer", "The number of components that components_detail does not list.");
     out.update(scene);
     return out;
 }
@@ -79,7 +80,7 @@ Json timings_schema() {
     Json schema = timings_fields().schema();
     schema["$schema"] = schema_dialect;
     schema["title"] = "facetmill timings, format 1";
-    schema["description"] = "What differs from run to run, and is in no report for that reason.";
+    schema["description"] = "Values that differ from run to run. Reports leave them out.";
     return schema;
 }
 

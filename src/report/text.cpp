@@ -29,7 +29,7 @@ std::string size_change(const StageRecord& stage) {
 }
 
 enum class Form { report, terminal };
-constexpr std::size_t most_lines = 20; ///< per stage on a terminal
+constexpr std::size_t most_lines = 20; ///< lines per stage on a terminal
 
 void add_warning(const Diagnostic& warning, const std::string& lead, Painted& out) {
     out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
@@ -52,7 +52,7 @@ void add_stage(const StageRecord& stage, std::size_t width, Form form, Painted& 
                       told = form == Form::report || all <= most_lines + 1 ? all : most_lines;
     for (std::size_t i = 0; i < told; ++i) out += fmt::format("{}  {}\n", lead, stage.said[i]);
     if (told < all)
-        out += fmt::format("{}  and {} more lines, which --report run.txt has\n", lead, grouped(all - told));
+        out += fmt::format("{}  and {} more lines (--report run.txt lists all)\n", lead, grouped(all - told));
     if (form == Form::terminal) return;
     for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }
@@ -74,8 +74,9 @@ void add_checks(const std::vector<Check>& checks, Form form, Painted& out) {
         else
             out += outcome(c);
         out += fmt::format(" {} ({}{}): expected {}, found {}{}\n", c.name, c.stage,
-                           c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
-                           where.empty() ? "" : "; " + where);
+                           (c.part.empty() ? "" : ", part " + c.part) +
+                               (c.file.empty() ? "" : ", file " + c.file),
+                           c.expected, found_text(c), where.empty() ? "" : "; " + where);
     }
 }
 

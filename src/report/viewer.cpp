@@ -18,11 +18,12 @@ namespace facetmill::report {
 
 namespace {
 
-constexpr std::size_t all_faces = 150000, most_faces = 40000; ///< in total, and per scene
-constexpr std::size_t most_scenes = 6;                        ///< that get a share of the faces
+constexpr std::size_t all_faces = 150000,
+                      most_faces = 40000; ///< maximum numbers of faces: in total, and per scene
+constexpr std::size_t most_scenes = 6;    ///< number of scenes that get a share of the faces
 /// Limits for the text in a page of 3 MB: all scenes with their textures, and the textures.
 constexpr std::size_t most_bytes = 1200000, most_texture_bytes = 500000;
-constexpr int largest_texture = 512; ///< pixels a side
+constexpr int largest_texture = 512; ///< pixels along a side
 
 /// The largest of the sizes.
 double largest_of(const std::vector<float>& distances) {
@@ -145,9 +146,13 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     Distances distances;
     if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
     PackedMesh mesh = report::packed(preview, distances.all, distances.scale);
-    // A scene without an up axis uses that of the first.
-    const Camera camera = first_ && first_up_ == scene.up ? *first_ : camera_of(scene);
-    if (!first_) stand_as(camera, scene.up);
+    // A scene without an up axis uses that of its file, otherwise that of the first.
+    const UpAxis up = scene.up == UpAxis::unknown ? from.file_up : scene.up;
+    const Camera camera = first_ && first_up_ == up ? *first_
+                          : up == scene.up          ? camera_of(scene)
+                          : up == UpAxis::z         ? Camera{.up = {0, 0, 1}, .front = {0, -1, 0}, .seen = {}}
+                                                    : Camera{.up = {0, 1, 0}, .front = {0, 0, 1}, .seen = {}};
+    if (!first_) stand_as(camera, up);
     Json json = {{"name", name},
                  {"faces", preview.faces},
                  {"lines", preview.all_lines},
@@ -172,7 +177,7 @@ Json ViewedScenes::group(const Scene& scene, const PreviewPaint& paint, std::siz
                          const ResolvedMaterials* materials) {
     const Index material = paint.material;
     const MaterialLook* look = materials && material < materials->size() ? &(*materials)[material] : nullptr;
-    const double grey[3] = {0.72, 0.74, 0.78}; // as in pictures
+    const double grey[3] = {0.72, 0.74, 0.78}; // the grey of pictures
     Json base = Json::array();
     for (std::size_t c = 0; c < 4; ++c)
         base.push_back(look ? static_cast<double>(look->base[c]) : paint.coloured || c == 3 ? 1.0 : grey[c]);
@@ -232,7 +237,7 @@ std::string viewer_section(const Json& viewed) {
     std::string text;
     for (const char c : viewed.dump(-1, ' ', true, Json::error_handler_t::replace))
         if (c == '<')
-            text += "\\u003c"; // so that no name ends the element
+            text += "\\u003c"; // escapes "<", so that no name ends the script element
         else
             text += c;
     return fmt::format("<section class=\"viewer\" hidden>\n<h2>3D view</h2>\n"

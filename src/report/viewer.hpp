@@ -18,7 +18,9 @@ namespace facetmill::report {
 struct ViewedFrom {
     const FaceTree* tree = nullptr; ///< null: no coloured distances
     std::string name{};
-    std::optional<Index> last_cap{}; ///< SignedDeviationSettings::last_cap
+    std::optional<Index> last_cap{}; ///< see SignedDeviationSettings::last_cap
+    /// The up axis of the file, for a scene without one: readers of the file assume it.
+    UpAxis file_up = UpAxis::unknown;
 };
 
 /// Collects the scenes of a view: one before, and the scenes after it.
@@ -48,14 +50,15 @@ class ViewedScenes {
                const ResolvedMaterials* materials);
     Json texture(const Texture& texture, bool with_alpha);
 
-    std::size_t faces_;           ///< per scene
+    std::size_t faces_;           ///< faces per scene
     std::optional<Camera> first_; ///< orientation of the scenes
     UpAxis first_up_{};
     std::size_t bytes_ = 0, texture_bytes_ = 0, left_out_ = 0;
     Json scenes_ = Json::array(), textures_ = Json::array();
     using TextureKey = std::tuple<const TextureImage*, TextureWrap, TextureWrap, bool, bool>;
-    std::map<TextureKey, Json> images_;                     ///< indices among the textures, or null
-    std::vector<std::shared_ptr<const TextureImage>> kept_; ///< so that addresses stay unique
+    std::map<TextureKey, Json> images_; ///< indices among the textures, or null
+    std::vector<std::shared_ptr<const TextureImage>>
+        kept_; ///< keeps images alive, so that addresses stay unique
 };
 
 /// The section of a page; empty for null.

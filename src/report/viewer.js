@@ -494,7 +494,7 @@ void main() {
     section.querySelector(".caption").textContent =
       `${scene.before ? "Before: " : ""}${scene.name}, shown with ${shown.join(", ")}.` +
       (scene.deviation && heat ? ` Colours: signed distance from ${scene.reference}, blue inside, red outside` +
-        `${scene.groups.some((group) => group.cap) ? "; what closes cuts (caps) is grey" : ""}.` : "") +
+        `${scene.groups.some((group) => group.cap) ? "; faces that close cuts (caps) are grey" : ""}.` : "") +
       (scene.note && !heat ? ` ${scene.note}` : "") + (data.left_out ? ` ${data.left_out}` : "");
     canvas.setAttribute("aria-label", `3D view of ${scene.name}`);
     const scale = section.querySelector(".scale"), [low, high] = scale.querySelectorAll("span");
@@ -520,7 +520,7 @@ void main() {
       reset();
     }
     const wanted = colours.value;
-    const choices = [["material", "as it is"], ["plain", "grey"]].concat(scene.deviation ? [["deviation", "deviation"]] : []);
+    const choices = [["material", "materials"], ["plain", "grey"]].concat(scene.deviation ? [["deviation", "deviation"]] : []);
     colours.replaceChildren(...choices.map(([value, text]) => new Option(text, value, false, value === wanted)));
     told();
   }

@@ -62,7 +62,7 @@ std::array<std::uint32_t, 2> folded(const Vec3& n) {
 struct Order {
     std::vector<Index> faces, wedges;
     std::size_t loose = 0;            ///< the first wedge without a face
-    std::vector<std::uint32_t> codes; ///< [corners] of these faces: wedges so far minus the wedge's number
+    std::vector<std::uint32_t> codes; ///< [corners] number of wedges so far minus the wedge's number
 };
 
 Order order_of(const Preview& preview) {
@@ -103,7 +103,7 @@ std::vector<PackedGroup> groups_of(const Preview& preview, const Order& order) {
     return groups;
 }
 
-/// One number per wedge, in order.
+/// Stores a number per wedge, in order.
 template <class Of>
 std::vector<std::uint32_t> column(const Order& order, Of&& of) {
     std::vector<std::uint32_t> out(order.wedges.size());

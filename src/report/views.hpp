@@ -11,12 +11,12 @@
 
 namespace facetmill::report {
 
-/// Signed distances of a scene from an earlier one, as colours. Lengths are in scene units.
+/// Signed distances of a scene from an earlier scene, as colours. Lengths are in scene units.
 struct DeviationView {
     std::string from;       ///< "the scene as loaded"
     std::string unit;       ///< empty: unknown
     bool posed = false;     ///< measured in the pose of the pictures, not in bind pose
-    double diagonal = 0;    ///< of the earlier scene: the reference of percentages
+    double diagonal = 0;    ///< diagonal of the earlier scene, the reference of percentages
     std::size_t points = 0; ///< sample points
     std::size_t caps = 0;   ///< unmeasured faces: they close cuts that the earlier scene lacks
     double low = 0, high = 0, mean = 0, rms = 0; ///< mean and rms of absolute distances, by area
@@ -32,13 +32,13 @@ struct DeviationView {
 /// A written scene, or the scene where a run ended.
 struct OutputView {
     std::string name; ///< "out.glb", "the scene at 'validate'"
-    std::string unit; ///< of lengths; empty: unknown
+    std::string unit; ///< unit of lengths; empty: unknown
     std::size_t faces = 0;
-    ShapeHistograms shape, input_shape; ///< input: of the scene as loaded
+    ShapeHistograms shape, input_shape; ///< input_shape: of the scene as loaded
     std::size_t input_faces = 0;        ///< 0: no scene was loaded
     std::optional<DeviationView> deviation;
     std::string no_deviation; ///< the reason if there is none
-    bool differs = false;     ///< from the scene as loaded
+    bool differs = false;     ///< true if it differs from the scene as loaded
     std::string same_as{};    ///< the stage with the same deviation
 };
 

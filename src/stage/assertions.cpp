@@ -150,7 +150,7 @@ bool lacks_faces(const Property& property, const Properties& properties) {
            (property.of_faces || !property.measure);
 }
 
-/// True if a measured property must equal one number. That is rarely intended, unless the number is 0.
+/// True if a measured property must equal a number. This is rarely intended, unless the number is 0.
 bool asks_exactly(const Property& property, const Bound& bound) {
     using enum PropertyKind;
     const bool measured = property.kind == number || property.kind == angle || property.kind == length ||
@@ -176,9 +176,9 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         }
         check.passed = holds(assertion, properties).value_or(assertion.if_applies);
         if (!check.passed && asks_exactly(property, assertion.bound))
-            check.hint = "a bare value asks for exactly that: min asks for at least, max for at most";
+            check.hint = "a bare value requires exactly this value; use min for at least, max for at most";
         else if (!check.passed && lacks_faces(property, properties))
-            check.hint = "the scene has points and no faces: most checks and stages are for faces";
+            check.hint = "the scene has points but no faces, and most checks and stages need faces";
         else if (!check.passed && hint_fits(property, assertion.bound, properties))
             check.hint = property.hint;
         check.where = assertion.where;

@@ -12,19 +12,19 @@ class Context;
 /// A property and its required values.
 struct Assertion {
     std::string property;
-    Bound bound{};           ///< of a word: its index; of a length: once resolved
-    Mark where{};            ///< of the required value
+    Bound bound{};           ///< for a word, its index; for a length, set when resolved
+    Mark where{};            ///< mark of the required value
     bool if_applies = false; ///< also holds if the property does not apply
     /// Lengths as written: one for a length property, three for a corner of a box, otherwise none.
     std::vector<Length> min{}, max{};
-    std::vector<Mark> min_at{}, max_at{}; ///< where each is written
-    Box within{};                         ///< of a box, after resolving; infinite where unspecified
+    std::vector<Mark> min_at{}, max_at{}; ///< marks of each length
+    Box within{};                         ///< bounds of a box after resolving; infinite if unspecified
 };
 
-/// "true", "2", "at most 5".
+/// The bound as text: "true", "2", "at most 5".
 [[nodiscard]] std::string expectation(const Bound& bound);
 bool holds(const Bound& bound, double value);
-/// In the syntax of pipelines: "true", "mm", "{max: 5mm}".
+/// The assertion's value in the syntax of pipelines: "true", "mm", "{max: 5mm}".
 [[nodiscard]] std::string to_string(const Assertion& assertion);
 
 /// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}, in written order.
@@ -41,12 +41,12 @@ struct Assertions {
     std::vector<PhysicalLength> physical() const;
 };
 
-/// Converts the lengths to scene units; percentages refer to the input of the context's stage. Throws usage
-/// (E-UNIT) for a physical unit when the scene has none.
+/// Converts the lengths to scene units; percentages refer to the input of the context's stage. Throws a
+/// usage error (E-UNIT) for a physical unit if the scene has no unit.
 [[nodiscard]] Assertions resolved(Assertions assertions, const Scene& scene, Context& context);
 
-/// Reads assertions from a map value. Unknown properties are problems, and so are truth values in place of
-/// numbers or the reverse.
+/// Reads assertions from a map value. Unknown properties are problems, as are truth values instead of
+/// numbers, and vice versa.
 bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
                       const std::set<std::string>& also_known = {});
 /// Adds E-MISSING unless at least one assertion or other key is given.
@@ -58,7 +58,7 @@ void verify_any(bool any, const Value& given, std::string_view owner, Problems& 
 /// The words of a property with their meanings; none for other kinds.
 [[nodiscard]] std::vector<Choice> word_choices(const Property& property);
 
-/// Declares one option per property of the table; each option used is added to the struct's assertions.
+/// Declares an option per property of the table. Each option in use is added to the struct's assertions.
 template <class S>
 void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner) {
     const Json schema = assertions_schema();
@@ -85,11 +85,11 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
     }
 }
 
-/// One check per assertion, in order; lengths must be resolved. The check fails if the property does not
-/// apply (volume of an open mesh).
+/// A check per assertion, in order. Lengths must be resolved. The check fails if the property does not apply
+/// (volume of an open mesh).
 [[nodiscard]] std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
                                                   const std::string& stage);
-/// True if the assertion holds; none when the property does not apply.
+/// True if the assertion holds; none if the property does not apply.
 [[nodiscard]] std::optional<bool> holds(const Assertion& assertion, const Properties& properties);
 
 template <>

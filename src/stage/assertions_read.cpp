@@ -54,11 +54,13 @@ bool verify(const Property& property, const Value& value, const Bound& bound, Pr
     if (property.kind == PropertyKind::count && (broken(bound.min) || broken(bound.max)))
         return refuse(fmt::format("'{}' is a count: a whole number", property.name), {});
     if (bound.max && *bound.max < property.lowest)
-        return refuse(fmt::format("no mesh has a '{}' of at most {}", property.name, to_string(*bound.max)),
-                      fmt::format("the lowest is {}", to_string(property.lowest)));
+        return refuse(
+            fmt::format("no mesh can have a '{}' of at most {}", property.name, to_string(*bound.max)),
+            fmt::format("the lowest is {}", to_string(property.lowest)));
     if (bound.min && *bound.min > property.highest)
-        return refuse(fmt::format("no mesh has a '{}' of at least {}", property.name, to_string(*bound.min)),
-                      fmt::format("the highest is {}", to_string(property.highest)));
+        return refuse(
+            fmt::format("no mesh can have a '{}' of at least {}", property.name, to_string(*bound.min)),
+            fmt::format("the highest is {}", to_string(property.highest)));
     return true;
 }
 
@@ -82,7 +84,7 @@ bool read_word(const Property& property, const Value& value, Assertion& out, Pro
     return index.has_value();
 }
 
-/// One length, or three for a corner: as a list, or in the one-liner's syntax, "0,0,20cm".
+/// Reads a length, or three lengths for a corner, as a list or in the one-liner's syntax "0,0,20cm".
 bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, std::vector<Mark>& marks,
                   Problems& problems) {
     if (count == 1) {
@@ -111,7 +113,7 @@ bool may_hold(const Assertion& a) {
 bool verify_length(const Property& property, const Value& value, const Assertion& a, Problems& problems) {
     if (a.max.empty() || a.max[0].amount >= 0) return true;
     problems.add(value.mark, "E-RANGE",
-                 fmt::format("no mesh has a '{}' of at most {}", property.name, a.max[0].text),
+                 fmt::format("no mesh can have a '{}' of at most {}", property.name, a.max[0].text),
                  "the lowest is 0");
     return false;
 }
@@ -208,7 +210,7 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
     if (value.deferred) return true;
     if (!value.is_map()) {
         problems.add(value.mark, "E-TYPE",
-                     fmt::format("{} takes a map of properties ({{closed: true}}), found {}", owner,
+                     fmt::format("{} needs a map of properties ({{closed: true}}), found {}", owner,
                                  value.described()));
         return false;
     }
@@ -220,7 +222,7 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
         if (!property) {
             auto known = known_properties();
             for (const auto& name : also_known) known.push_back({name});
-            problems.add(entry.key_mark, "E-KEY", fmt::format("{} knows no property '{}'", owner, entry.key),
+            problems.add(entry.key_mark, "E-KEY", fmt::format("{} has no property '{}'", owner, entry.key),
                          hint_for_option(entry.key, known, "facetmill stages validate lists the properties"));
             good = false;
             continue;

@@ -36,11 +36,32 @@ void warn_of_bind_pose(const Scene& scene, Context& context) {
     if (names.empty()) return;
     context.warn(
         "W-BIND-POSE",
-        fmt::format("{}: {} {} {} in bind pose, which lies elsewhere than what is shown, where the "
-                    "joints place it",
+        fmt::format("{}: {} {} {} in bind pose, but viewers show another pose, which the joints define",
                     context.name(), names.size() == 1 ? "part" : "parts", join_texts(names),
                     names.size() == 1 ? "is" : "are"),
-        "planes, boxes and points are for the bind pose: info has its bounds, render shows the other");
+        "give planes, boxes and points in the bind pose; info prints its bounds, render shows the other "
+        "pose");
+}
+
+bool has_poses(const Part& part) {
+    const auto is_morph = [](const Attribute& a) { return a.role == Role::morph_vector; };
+    return part.mesh.face_count() > 0 &&
+           (part.skinned || std::any_of(part.mesh.attributes.begin(), part.mesh.attributes.end(), is_morph));
+}
+
+void warn_of_rest_pose(const std::string& limit, const std::vector<std::string>& parts, Context& context) {
+    if (parts.empty()) return;
+    constexpr std::size_t most = 3;
+    std::vector<std::string> shown;
+    for (std::size_t i = 0; i < std::min(most, parts.size()); ++i)
+        shown.push_back(fmt::format("'{}'", parts[i]));
+    if (parts.size() > most) shown.push_back(fmt::format("{} more", parts.size() - most));
+    context.warn(
+        "W-REST-POSE",
+        fmt::format("{}: {} bounds, and the deviation measures, only the rest pose of {}: where joints bend "
+                    "the surface or morph targets move it, it may be far off",
+                    context.name(), limit, join_texts(shown)),
+        "use simplify: 50%, a ratio, for parts that move, and compare their poses");
 }
 
 } // namespace facetmill

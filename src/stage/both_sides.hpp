@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-/// Collects the other sides of parts until all are cut, because the scene's parts must not move before.
+/// Collects the other sides of parts until all are cut, because the scene's parts must not move earlier.
 class BothSides {
   public:
     explicit BothSides(Scene& scene) : scene_(scene) {}
@@ -32,7 +32,8 @@ class BothSides {
 
   private:
     Scene& scene_;
-    std::vector<std::pair<std::size_t, Part>> others_; ///< the index of the part before it, and the part
+    std::vector<std::pair<std::size_t, Part>>
+        others_; ///< pairs of the preceding part's index and the new part
 };
 
 } // namespace facetmill

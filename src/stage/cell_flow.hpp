@@ -10,19 +10,19 @@ namespace facetmill {
 
 struct CellFlow {
     cells::CellResources means;
-    std::unique_ptr<cells::Partition> partition; ///< after a load; null once the scene is in memory
+    std::unique_ptr<cells::Partition> partition; ///< set after a load; null once the scene is in memory
     std::string part;                            ///< the name of the only part
     Transform transform;                         ///< from the cells' space to the world
     Box box;                                     ///< the part's bounding box, in the world
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    std::optional<Scene> scene; ///< back in memory
+    std::optional<Scene> scene; ///< the scene, once it is back in memory
     /// The input of the stage that created the scene, for its surface check.
     std::optional<PartSurface> surface;
 
     Box bounds() const { return scene ? scene->bounds() : box; }
 
-    /// A scene of one part with the corners of the cells' box, for resolving lengths.
+    /// A scene of a single part with the corners of the cells' box, to resolve lengths.
     Scene outline() const {
         Scene outline;
         outline.unit = unit;

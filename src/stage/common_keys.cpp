@@ -22,17 +22,16 @@ Json condition_schema() {
 
 const std::vector<CommonKey>& common_keys() {
     static const std::vector<CommonKey> keys{
-        {CommonKey::Use::names, "name",
-         "The name of this step in the report, in --set and in messages. Unique in the pipeline.",
+        {CommonKey::Use::names, "name", "The unique name of this step, for the report, --set and messages.",
          text_schema},
         {CommonKey::Use::conditions, "when",
          "Runs the step only if this holds: a bool param, ${a} == value, or properties as in ensure.",
          condition_schema},
         {CommonKey::Use::selects, "only",
-         "The parts that it works on: names or globs of parts or materials; \"!glob\" excludes.",
-         texts_schema},
+         "The parts to process: names or globs of parts or materials. \"!glob\" excludes.", texts_schema},
         {CommonKey::Use::ensures, "ensure",
-         "A contract on the result of the step: {closed: true, faces: {max: 5000}}.", contract_schema},
+         "Checks that the result of the step has these properties: {closed: true, faces: {max: 5000}}.",
+         contract_schema},
     };
     return keys;
 }
@@ -45,7 +44,10 @@ bool is_common_key(std::string_view name) {
 const std::vector<ControlItem>& control_items() {
     static const std::vector<ControlItem> items{
         {ControlItem::Kind::branch, "branch", "Runs several lists of stages on the same scene", {"join"}},
-        {ControlItem::Kind::foreach, "foreach", "Runs stages for each of some values", {"join", "do"}},
+        {ControlItem::Kind::foreach,
+         "foreach",
+         "Runs stages once for each of several values",
+         {"join", "do"}},
         {ControlItem::Kind::include, "include", "Runs the stages of another file", {"with"}, false},
     };
     return items;

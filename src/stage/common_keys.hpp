@@ -1,6 +1,6 @@
 #pragma once
-// The keys that every step of a pipeline accepts besides its stage's options, and the control items. Declared
-// once for the parser, the one-liner, the help and the schema.
+// The keys that every step of a pipeline accepts besides its stage's options, and the control items. They
+// are declared once for the parser, the one-liner, the help and the schema.
 
 #include "base/json.hpp"
 
@@ -16,10 +16,10 @@ struct CommonKey {
     Use use;
     std::string name;
     std::string help;
-    Json (*schema)(); ///< of the value, without expressions
+    Json (*schema)(); ///< schema of the value, without expressions
 };
 
-/// name, when, only, ensure; in the order of the help.
+/// The keys name, when, only and ensure, in the order of the help.
 const std::vector<CommonKey>& common_keys();
 bool is_common_key(std::string_view name);
 
@@ -28,13 +28,13 @@ struct ControlItem {
     enum class Kind { branch, foreach, include };
     Kind kind;
     std::string name, about;
-    std::vector<std::string> keys; ///< allowed next to it
+    std::vector<std::string> keys; ///< keys allowed next to it
     bool takes_common_keys = true;
 };
 
-/// branch, foreach, include.
+/// The items branch, foreach and include.
 const std::vector<ControlItem>& control_items();
-/// Null for an unknown name.
+/// The item with this name, or null.
 [[nodiscard]] const ControlItem* control_item(std::string_view name);
 inline bool is_control_item(std::string_view name) { return control_item(name) != nullptr; }
 

@@ -76,7 +76,7 @@ Context::Context(RunState& run, report::StageRecord& record, const PartFilter& o
     : run_(run), record_(record), only_(only), entering_(entering), where_(where) {}
 
 void Context::for_each_part(Scene& scene, const std::function<void(Part&)>& body) {
-    double all = 0, done = 0; // in faces
+    double all = 0, done = 0; // numbers of faces
     for (const auto& part : scene.parts)
         if (selects(part, scene)) all += static_cast<double>(1 + part.mesh.face_count());
     for (auto& part : scene.parts) {
@@ -113,10 +113,9 @@ double Context::resolve(const Length& length, const Scene& scene, std::string_vi
         is = length.amount / 100 * whole;
     }
     if (!std::isfinite(is))
-        throw Error(
-            ErrorKind::stage, "E-RANGE",
-            fmt::format("'{}' is {}, and that is beyond 1.8e308, the largest number", option, length.text),
-            "transform: {scale: 1e-300} first");
+        throw Error(ErrorKind::stage, "E-RANGE",
+                    fmt::format("'{}' is {}, beyond 1.8e308, the largest number", option, length.text),
+                    "use transform: {scale: 1e-300} first");
     const bool of_part = length.kind == Length::Kind::percent && length.of == Length::Of::part && part;
     set_resolved(
         record_.resolved,
@@ -165,6 +164,11 @@ void Context::output(const std::string& path, io::Span bytes) {
     const auto& staged = run_.outputs.add(run_.places.output(path), bytes, where_);
     run_.record.outputs.push_back(
         {fs::path(path).lexically_normal().string(), staged.bytes, staged.sha256, {}});
+}
+
+void Context::wrote(WrittenScene written) {
+    written.scene = run_.trail.scene;
+    run_.trail.written.push_back(std::move(written));
 }
 
 void Context::record_input(report::FileRecord file) {

@@ -26,12 +26,33 @@ struct PartFilter {
 /// Folders for reading and writing files.
 struct Folders {
     std::filesystem::path input_base;  ///< base of relative paths that a pipeline file reads
-    std::filesystem::path output_base; ///< --output-dir
+    std::filesystem::path output_base; ///< see --output-dir
     /// --asset-root: folders, besides its own, in which a loaded file may refer to files.
     std::vector<std::filesystem::path> asset_roots = {};
     /// The path of an input file: absolute, or relative to input_base; "-" stays.
     std::filesystem::path input(const std::string& text) const;
     std::filesystem::path output(const std::string& text) const;
+};
+
+/// A scene as `write` staged it, for later checks.
+struct WrittenScene {
+    std::string path;                          ///< as the report names it
+    const io::Outputs::File* file = nullptr;   ///< the main file
+    std::string format;                        ///< of the codec
+    Unit unit = Unit::unknown;                 ///< of the numbers in the file
+    UpAxis up = UpAxis::unknown;               ///< the same
+    std::size_t first_record = 0, records = 0; ///< its files among the outputs of the run
+    bool is_whole = true;                      ///< it has all parts of the scene
+    std::size_t scene = 0;                     ///< the number of the scene
+};
+
+struct Purpose; // stage/purpose.hpp
+
+/// What the steps before the current one wrote and checked, on its way through branches.
+struct SceneTrail {
+    std::size_t scene = 0; ///< the number of the current scene
+    std::vector<WrittenScene> written;
+    std::shared_ptr<const Purpose> purpose; ///< that the current scene was found fit for, or null
 };
 
 /// State of a run that outlives its stages.
@@ -43,6 +64,13 @@ struct RunState {
     std::shared_ptr<const Surface>
         loaded;            ///< the scene after the last load, when a contract compares with it
     bool read_back = true; ///< decodes written files again and compares them
+    SceneTrail trail;
+    std::size_t scenes = 0; ///< numbers given to scenes
+    /// Gives the scene another number. moved: the surface only moved, so it still fits its purpose.
+    void number_scene(bool moved) {
+        trail.scene = ++scenes;
+        if (!moved) trail.purpose.reset();
+    }
     /// The number of results that depended on more than scene, options and recorded inputs, such as free
     /// memory or a refused file.
     std::size_t unrepeatable = 0;
@@ -62,8 +90,8 @@ class Context {
     /// Deselects parts of lines. Returns the number of deselected parts.
     std::size_t leave_lines(const Scene& scene);
 
-    /// The length in world scene units. Records the result under the option's name. Throws usage (E-UNIT) for
-    /// a physical unit when the scene has none.
+    /// The length in world scene units. Records the result under the option's name. Throws a usage error
+    /// (E-UNIT) for a physical unit if the scene has no unit.
     double resolve(const Length& length, const Scene& scene, std::string_view option,
                    const Part* part = nullptr);
 
@@ -71,9 +99,9 @@ class Context {
     SurfaceSize size_before(const Scene& scene, std::size_t part) const;
     /// Stores the size of a part after the stage, so that it need not be measured again.
     void keep_size(std::size_t part, const SurfaceSize& size);
-    /// [parts] the stored sizes; empty when there are none or the scene has other parts.
+    /// [parts] The stored sizes; empty without sizes, or if the scene has other parts.
     std::vector<std::optional<SurfaceSize>> kept_sizes(const Scene& scene) const;
-    /// [parts] sets the surfaces of the scene before the stage.
+    /// Sets the surfaces of the scene's parts before the stage.
     void know_surfaces(const std::vector<PartSurface>& surfaces);
 
     void warn(std::string id, std::string message, std::string hint = {});
@@ -90,7 +118,7 @@ class Context {
     }
 
     /// Stages a file for writing, with its path as in the options, and records it among the outputs. Throws
-    /// like io::Outputs::add.
+    /// the errors of io::Outputs::add.
     void output(const std::string& path, io::Span bytes);
 
     /// Prevents caching, because the result may differ next time for the same scene, options and inputs.
@@ -100,13 +128,18 @@ class Context {
     /// The files of the run, and their records.
     io::Outputs& outputs() { return run_.outputs; }
     std::vector<report::FileRecord>& output_records() { return run_.record.outputs; }
+    /// The written scenes and the checked purpose on the way to this stage.
+    const SceneTrail& trail() const { return run_.trail; }
+    /// Records a written scene; its number is set here.
+    void wrote(WrittenScene written);
+    void found_fit(std::shared_ptr<const Purpose> purpose) { run_.trail.purpose = std::move(purpose); }
     /// True if written files are decoded again and compared.
     bool reads_back() const { return run_.read_back; }
     /// Records an input with its SHA-256: outputs may replace it only with the same bytes.
     void record_input(report::FileRecord file);
     /// Records a missing file that an input refers to.
     void record_absent(std::string path) { run_.record.absent.push_back(std::move(path)); }
-    /// The surface of the scene after the last load if a contract compares with it, else null.
+    /// The surface of the scene after the last load if a contract compares with it, otherwise null.
     const Surface* loaded() const { return run_.loaded.get(); }
     const Mark& where() const { return where_; }
     const std::string& name() const { return record_.name; }
@@ -118,7 +151,7 @@ class Context {
     Box entering_;
     Mark where_;
     bool leaves_lines_ = false;
-    std::vector<std::optional<SurfaceSize>> sizes_before_, sizes_after_; ///< [parts]
+    std::vector<std::optional<SurfaceSize>> sizes_before_, sizes_after_; ///< [parts] sizes
 };
 
 } // namespace facetmill

@@ -5,6 +5,7 @@
 #include "base/text/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "stage/bind_pose.hpp"
 #include "stage/crossing_faces.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ const Declaration& deviation_declaration() {
     return declaration;
 }
 
-/// "0.0123 (0.51 % of the diagonal)".
+/// The value as text: "0.0123 (0.51 % of the diagonal)".
 std::string found_text(const DeviationResult& measured, double value) {
     if (!std::isfinite(value)) return "nothing to compare with";
     return fmt::format("{:.6g} ({} of the diagonal)", value, percentage(measured.percent(value), 4));
@@ -50,23 +51,19 @@ DeviationSettings DeviationLimits::settings() const {
 void declare_deviation(Declare<DeviationLimits>& d) {
     using From = DeviationLimits::From;
     d.option("max", &DeviationLimits::max,
-             "The limit of the largest distance from either surface to the other (a length).")
+             "The limit of the largest distance from each surface to the other.")
         .at_least(0)
         .primary();
-    d.option("rms", &DeviationLimits::rms,
-             "The limit of the root mean square distance over the area (a length).")
+    d.option("rms", &DeviationLimits::rms, "The limit of the root mean square distance over the area.")
         .at_least(0);
-    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance over the area (a length).")
-        .at_least(0);
+    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance over the area.").at_least(0);
     d.choice<From>(
         "from", &DeviationLimits::from,
-        {{"stage", From::stage, "the scene that entered the step"},
-         {"load", From::load, "the scene as last loaded"}},
-        "What the scene is compared with; as a stage of its own ensure always compares with load.");
+        {{"stage", From::stage, "the input of the step"}, {"load", From::load, "the scene as last loaded"}},
+        "The scene to compare with. The stage ensure always uses load.");
     d.option("samples", &DeviationLimits::samples,
-             "The number of points spread over the area, each way, all of them measured (a count; 100000 "
-             "unless given, and rms and mean are of as many of these as they need); all vertices are "
-             "measured in addition.")
+             "The number of sample points in each direction. All of them are measured, and all vertices as "
+             "well. Default: 100000, and rms and mean use only as many of these as they need.")
         .between(0, 1e9);
     d.option("seed", &DeviationLimits::seed, "The seed of the sample positions.").at_least(0);
     d.option("certify", &DeviationLimits::certify,
@@ -99,7 +96,7 @@ Json contract_schema() {
     Json schema = assertions_schema();
     Json deviation = deviation_declaration().schema();
     deviation["description"] =
-        "How far the surface may be from the scene that entered the step, measured both ways.";
+        "The largest distance between the result of the step and its input, in both directions.";
     schema["properties"]["deviation"] = std::move(deviation);
     return schema;
 }
@@ -107,7 +104,7 @@ Json contract_schema() {
 Json contract_result_schema() {
     Json schema = deviation_fields().schema();
     schema["description"] =
-        "How far the scene is from what it is compared with. Only when ensure limits the deviation.";
+        "The deviation from the compared scene. Present only when ensure limits the deviation.";
     return schema;
 }
 
@@ -127,6 +124,10 @@ void check_deviation(const DeviationLimits& limits, const LimitMarks& where, con
                      const Scene& scene, Context& context) {
     const DeviationResult measured =
         deviation(before, surface_or_points_of(scene, filled_surface), limits.settings());
+    std::vector<std::string> moving;
+    for (const Part& part : scene.parts)
+        if (part.changed && has_poses(part)) moving.push_back(part.name);
+    warn_of_rest_pose("ensure", moving, context);
     name_fans(scene, context);
     context.result()["deviation"] = deviation_json(measured);
     const auto check = [&](std::size_t which, const std::string& name, const std::optional<Length>& limit,
@@ -135,7 +136,7 @@ void check_deviation(const DeviationLimits& limits, const LimitMarks& where, con
         report::Check c;
         c.name = name;
         c.where = where[which];
-        // A percentage without a reference is of the diagonal of the comparison scene.
+        // A percentage without a reference refers to the diagonal of the comparison scene.
         const bool of_reference = limit->kind == Length::Kind::percent && limit->of == Length::Of::stage;
         const double most =
             of_reference ? limit->amount / 100 * measured.diagonal : context.resolve(*limit, scene, name);

@@ -10,7 +10,7 @@
 
 namespace facetmill {
 
-/// ensure: {deviation: {max: 0.5%}}, or short: {deviation: 0.5%}.
+/// The limits of ensure: {deviation: {max: 0.5%}}, or short: {deviation: 0.5%}.
 struct DeviationLimits {
     enum class From { stage, load };
     std::optional<Length> max, rms, mean;
@@ -21,11 +21,11 @@ struct DeviationLimits {
 
     DeviationSettings settings() const;
 };
-/// Where max, rms and mean are written.
+/// The marks of max, rms and mean.
 using LimitMarks = std::array<Mark, 3>;
 
 void declare_deviation(Declare<DeviationLimits>& d);
-/// Adds E-MISSING when no length is limited.
+/// Adds E-MISSING if no length is limited.
 void verify_deviation(const DeviationLimits& limits, const Mark& where, Problems& problems);
 
 struct Contract {
@@ -37,7 +37,7 @@ bool parse_contract(const Value& value, Contract& out, Problems& problems);
 [[nodiscard]] Json contract_schema();
 /// The schema of the data that a deviation contract adds to its stage's result, under "deviation".
 [[nodiscard]] Json contract_result_schema();
-/// "max 0.5%, rms 0.1%", for plans.
+/// The limits as text for plans: "max 0.5%, rms 0.1%".
 [[nodiscard]] std::string to_string(const DeviationLimits& limits);
 
 /// Measures the deviation of the scene from `before`, and makes a check of every limit, with the position of

@@ -40,11 +40,10 @@ void warn_of_fans(const FanCounts& faces, Context& context) {
                 "triangles, which may overlap: {}",
                 faces.fans));
     if (faces.overlapping > 0)
-        context.warn("W-FANS",
-                     fmt::format("{} {} around points several times, and the triangles overlap there: faces "
-                                 "beside them would be open otherwise",
-                                 counted(faces.overlapping, "face"),
-                                 faces.overlapping == 1 ? "winds" : "wind"));
+        context.warn("W-FANS", fmt::format("{} {} around points several times, and the triangles overlap "
+                                           "there: otherwise the neighbouring faces would be open",
+                                           counted(faces.overlapping, "face"),
+                                           faces.overlapping == 1 ? "winds" : "wind"));
 }
 
 } // namespace facetmill

@@ -9,9 +9,9 @@ class Context;
 
 /// How to handle self-intersecting faces before a stage runs.
 enum class CrossingFacePolicy {
-    keep, ///< no change: the stage only uses edges and corners, or tolerates them
-    name, ///< warns about non-planar ones: the stage uses the area that faces cover (filled_surface)
-    fill, ///< triangulates planar ones, warns about others: the stage cuts faces or moves single vertices
+    keep, ///< no change; the stage only uses edges and corners, or tolerates such faces
+    name, ///< warns about non-planar faces; the stage uses the area that faces cover (filled_surface)
+    fill, ///< triangulates planar faces and warns about others; the stage cuts faces or moves single vertices
 };
 
 /// Prepares the selected parts. fill triangulates the area that a planar self-intersecting face winds around
@@ -28,7 +28,7 @@ struct FanCounts {
     std::size_t overlapping = 0; ///< filled with overlapping triangles
 };
 
-/// Warns (W-FANS) when there are any.
+/// Warns (W-FANS) if the counts are not 0.
 void warn_of_fans(const FanCounts& faces, Context& context);
 
 } // namespace facetmill

@@ -15,7 +15,7 @@ void warn_of_crossing_faces_in_grid(const Scene& scene, Context& context) {
     if (crossing > 0)
         context.warn("W-FANS",
                      context.name() + ": " + counted(crossing, "face") +
-                         " with edges that cross: the grid's pieces of them overlap",
+                         " with edges that cross: the pieces of the grid overlap",
                      "use triangulate first");
 }
 

@@ -17,7 +17,7 @@ const RegisterMessages stage_messages{
      "intersect themselves, or wind several times around some points with their neighbours.",
      "Check the faces given in the message."},
     {"W-LINES",
-     "A file has no lines for tubes, tubes intersect themselves at sharp corners, or a format cannot hold "
+     "A file has no lines for tubes, tubes intersect themselves at sharp corners, or a format cannot store "
      "lines. Or a stage works on faces and leaves parts of lines unchanged.",
      "For tubes, give a smaller thickness, or use `clean: {self_intersections: union}`. Write lines as PLY, "
      "OBJ or glTF. `load: {lines: 1%}` turns lines into tubes, which are faces."},
@@ -25,16 +25,21 @@ const RegisterMessages stage_messages{
     {"W-POINTS",
      "A stage that works on faces leaves point clouds unchanged. A point cloud is a part without faces and "
      "lines.",
-     "Exclude them with the common key `only`. `crop`, `clip`, `tile`, `transform` and `merge` work on "
-     "points."},
+     "Leave clouds out with the common key `only`, as in `only: \"!points\"`. `crop`, `clip`, `tile`, "
+     "`transform` and `merge` work on points."},
+    {"W-REST-POSE",
+     "A limit of the deviation, such as `max_error`, holds for the rest pose of a skinned or morphed part. "
+     "Where joints "
+     "bend the surface or morph targets move it, the deviation may be much larger.",
+     "Use `simplify` with a ratio for parts that move, as in `simplify: 50%`, and compare their poses."},
     {"W-SNAPPED",
      "`clip` or `crop` treats vertices near the plane or the outline as on it. The part is so far from the "
-     "origin that neighbouring 32-bit floats are far apart, half a metre in UTM.",
+     "origin that its 32-bit floats are rounded visibly, by up to a quarter of a metre in UTM.",
      "Use `snap: 0` to keep positions exact, if they were never 32-bit floats."},
     {"W-SURFACE-LOST",
      "A stage removed all faces of a part, or more of its area than expected. The limit is a tenth, or half "
      "for stages that change the shape: `relax`, `split`, `simplify`, and `clean` with `self_intersections: "
-     "union`. Stages that cut off, scale or replace the surface on request may remove any area.",
+     "union`. Stages that cut, scale or replace the surface on request may remove any area.",
      "Validate the input of the stage, because folded, flat or doubled surfaces cancel each other. "
      "`--strict=W-SURFACE-LOST` makes it an error."},
 };

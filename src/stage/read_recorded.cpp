@@ -52,16 +52,15 @@ namespace {
 /// in a comparison.
 void warn_of_sizes(const std::string& name, Unit others, const Scene& other, const Scene& scene,
                    Context& context) {
-    constexpr double apart = 100; // in a picture of 800 pixels, the smaller scene has 8
+    constexpr double apart = 100; // at this ratio, the smaller scene has 8 of 800 pixels
     const double mine = diagonal(scene.bounds()), its = diagonal(other.bounds());
     if (!(mine > 0 && its > 0) || (mine < apart * its && its < apart * mine)) return;
     if (others != Unit::unknown && scene.unit != Unit::unknown) return;
-    context.warn(
-        "W-UNITS",
-        fmt::format("{}: '{}' is {:.4g} times as large as the scene: are they in different units?",
-                    context.name(), name, its / mine),
-        fmt::format("transform: {{scale: {:.4g}}} before this stage gives the scene the size of '{}'",
-                    its / mine, name));
+    context.warn("W-UNITS",
+                 fmt::format("{}: '{}' is {:.4g} times as large as the scene: are they in different units?",
+                             context.name(), name, its / mine),
+                 fmt::format("use transform: {{scale: {:.4g}}} before this stage to match the size of '{}'",
+                             its / mine, name));
 }
 
 } // namespace

@@ -42,24 +42,21 @@ const StageInfo* stage_named(std::string_view name) {
 namespace {
 
 /// Warns with `id` about parts that a stage for faces leaves unchanged, unless it omits them from its result.
-void tell_of_left(const StageInfo& stage, const std::string& what, bool is_one, bool leaves_out,
-                  const char* id, const char* hint, Context& context) {
+void tell_of_left(const StageInfo& stage, const std::string& what, bool leaves_out, const char* id,
+                  const char* hint, Context& context) {
     if (leaves_out)
-        context.say(what + " left out");
+        context.say(what + " skipped");
     else
-        context.warn(id,
-                     fmt::format("{} works on faces and leaves {} as {}", stage.name, what,
-                                 is_one ? "it is" : "they are"),
-                     hint);
+        context.warn(id, fmt::format("{} works on faces and leaves {} unchanged", stage.name, what), hint);
 }
 
 void leave_lines(const StageInfo& stage, const Scene& scene, Context& context) {
     if (stage.lines == LinesPolicy::work || stage.loads) return;
     const std::size_t left = context.leave_lines(scene);
     if (left == 0) return;
-    tell_of_left(stage, counted(left, "part") + " of lines", left == 1,
+    tell_of_left(stage, counted(left, "part") + " of lines",
                  stage.lines == LinesPolicy::pass || stage.checks || stage.tells, "W-LINES",
-                 "load: {lines: 1%} makes tubes of lines", context);
+                 "use load: {lines: 1%} to turn lines into tubes", context);
 }
 
 void tell_of_points(const StageInfo& stage, const Scene& scene, Context& context) {
@@ -70,8 +67,8 @@ void tell_of_points(const StageInfo& stage, const Scene& scene, Context& context
                    part.mesh.vertex_count() > 0 && context.selects(part, scene);
         }));
     if (clouds == 0) return;
-    tell_of_left(stage, counted(clouds, "cloud") + " of points", clouds == 1, stage.tells, "W-POINTS",
-                 "leave them out with only; crop, clip and tile work on points", context);
+    tell_of_left(stage, counted(clouds, "cloud") + " of points", stage.tells, "W-POINTS",
+                 "exclude them with only; crop, clip and tile work on points", context);
 }
 
 } // namespace
@@ -126,7 +123,7 @@ std::string hint_for_stage(std::string_view word, const std::vector<std::string>
     if (const std::string_view chain = chain_called(word); !chain.empty()) return std::string(chain);
     if (const StageInfo* stage = stage_called(word))
         return fmt::format("'{}' is done by {} here: facetmill stages {}", word, stage->name, stage->name);
-    return did_you_mean(word, names, "facetmill stages lists them all");
+    return did_you_mean(word, names, "facetmill stages lists all stages");
 }
 
 } // namespace facetmill

@@ -1,21 +1,18 @@
 #pragma once
 // The interface of a stage: a declaration and a function. A stage file is
 //
-//   struct RelaxOptions { ... };
-//   void declare(Declare<RelaxOptions>& d) { ... }
-//   Scene run(Scene scene, const RelaxOptions& o, Context& context) { ... }
-//   const RegisterStage registered = make_stage<StageOf<run>>(
-//       {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare);
+//   struct RelaxOptions { ... }; void declare(Declare<RelaxOptions>& d) { ... } Scene run(Scene scene, const
+//   RelaxOptions& o, Context& context) { ... } const RegisterStage registered = make_stage<StageOf<run>>(
+//   {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare);
 //
-// A stage that reports something also fills a struct of its own, whose fields are declared the same way:
+// A stage with a report also fills a struct, whose fields are declared in the same way:
 //
-//   struct RelaxReport { ... };
-//   void declare_report(DeclareFields<RelaxReport>& d) { ... }
-//   Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) { ... }
-//   const RegisterStage registered = make_stage<StageOf<run>>({...}, declare, declare_report);
+//   struct RelaxReport { ... }; void declare_report(DeclareFields<RelaxReport>& d) { ... } Scene run(Scene
+//   scene, const RelaxOptions& o, Context& context, RelaxReport& report) { ... } const RegisterStage
+//   registered = make_stage<StageOf<run>>({...}, declare, declare_report);
 //
-// A stage that reads files, works on cells or checks its options further derives from StageOf<run> and
-// overrides what Stage says by default; `o` are its options.
+// A stage that reads files, works on cells or has more checks of its options derives from StageOf<run> and
+// overrides functions of Stage. `o` contains its options.
 
 #include "base/lazy.hpp"
 #include "io/codec.hpp"
@@ -59,41 +56,43 @@ class Stage;
 /// The properties of a stage, independent of its options.
 struct StageInfo {
     std::string name; ///< the verb users write
-    /// Names in other programs, separated by blanks. Only for hints: a stage has one name.
+    /// Names in other programs, separated by blanks. Only for hints, because a stage has a single name.
     const char* also_called = "";
     /// An operation of other programs that needs this stage together with others.
     struct Chain {
-        const char *words = "", *stages = ""; ///< separated by blanks; a hint with the stages
+        const char *words = "", *stages = ""; ///< words, separated by blanks; a hint with the stages
     } chain = {};
-    std::string about; ///< one line
+    std::string about; ///< a single line
     /// Paragraphs of short lines: its guarantees, its effect on attributes, its source.
     const char* details = "";
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
-    bool checks = false; ///< it only checks: consecutive checks all run before a failure ends the branch
-    bool tells = false;  ///< it has an effect besides the scene: a file, or lines on the terminal
-    bool moves = false;  ///< it may move the whole scene: distances from before are meaningless
+    bool checks = false;      ///< it only checks: consecutive checks all run before a failure ends the branch
+    bool tells = false;       ///< it has an effect besides the scene: a file, or lines on the terminal
+    bool keeps_scene = false; ///< the scene leaves it as it entered
+    bool writes_scene = false;       ///< it writes the scene to a file, which later checks judge
+    bool moves = false;              ///< it may move the whole scene: distances from before are meaningless
     bool changes_images = false;     ///< it creates, drops or renames images that a write may export
     bool measures_deviation = false; ///< it reports how far it moved the surface
     LinesPolicy lines = LinesPolicy::leave;
     bool leaves_points = false;        ///< it skips point clouds, with a warning (W-POINTS)
     bool loads = false;                ///< it adds to the scene instead of changing it (may come first)
-    MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options change that
-    /// How self-intersecting faces are handled before it runs, unless its options change that: the strictest
+    MayLose may_lose = MayLose::tenth; ///< the intended loss of surface, unless its options change that
+    /// The handling of self-intersecting faces before it runs, unless its options change that: the strictest
     /// policy of any option.
     CrossingFacePolicy crossing_faces = CrossingFacePolicy::keep;
     OptionRoles roles = {};
-    bool ends_cells = false; ///< on_cells produces a scene in memory; else cells
+    bool ends_cells = false; ///< on_cells produces a scene in memory, otherwise cells
 
     // Filled by make_stage. Declarations are created on first use.
     Lazy<Declaration> options = {};
-    Lazy<Fields> result = {};            ///< of the report; empty: no report
+    Lazy<Fields> result = {};            ///< fields of the report; empty: no report
     bool names_files = false;            ///< it overrides files()
     bool reads_headers = false;          ///< it overrides header()
     bool chooses_crossing_faces = false; ///< it overrides crossing_faces()
     bool works_on_cells = false;         ///< it overrides on_cells()
     std::shared_ptr<Stage> (*make)() = nullptr;
 
-    /// A use of this stage, with default options; it must not outlive this.
+    /// Makes a use of this stage with default options. It must not outlive this object.
     std::shared_ptr<Stage> made() const;
 };
 
@@ -105,11 +104,11 @@ class Stage {
     Stage& operator=(const Stage&) = delete;
     virtual ~Stage() = default;
 
-    /// Where its declaration (info->options) stores the parsed options.
+    /// The address where its declaration (info->options) stores the parsed options.
     virtual void* target() = 0;
     virtual Scene run(Scene scene, Context& context) const = 0;
     virtual StageFiles files() const { return {}; }
-    /// The header data of a file that this stage would add to the scene. Throws like run.
+    /// The header data of a file that this stage would add to the scene. Throws the errors of run.
     virtual io::FileHeader header(const std::filesystem::path&, const Folders&) const { return {}; }
     /// Adds problems that the declaration cannot detect, at the marks of the values.
     virtual void verify(const Value& /*given*/, Problems&) const {}
@@ -117,13 +116,15 @@ class Stage {
     virtual MayLose may_lose() const { return info->may_lose; }
     /// How self-intersecting faces must be handled with these options.
     virtual CrossingFacePolicy crossing_faces() const { return info->crossing_faces; }
+    /// The given option that judges written files, so that a `write` must come before; empty: none.
+    virtual std::string judges_written() const { return {}; }
     /// True if these options compare with the scene as loaded.
     virtual bool compares_with_load() const { return false; }
     /// Like run, for a mesh larger than memory; only if info->works_on_cells.
     virtual void on_cells(CellFlow&, Context&) const {}
     /// The reason, in words, why these options need the mesh in memory.
     virtual std::optional<std::string> why_not_on_cells() const { return {}; }
-    /// How many triangles these options make of one, if they work on cells.
+    /// The number of triangles that these options make from a triangle, if they work on cells.
     virtual double triangles_of_one() const { return 1; }
 
     const StageInfo* info = nullptr; ///< the stage
@@ -184,7 +185,7 @@ class StageOf<function> : public StageWith<Options> {
     }
 };
 
-/// True if a stage overrides a function of Stage: otherwise both pointers refer to the same member.
+/// True if a stage overrides a function of Stage. Otherwise both pointers refer to the same member.
 template <class Own, class Default>
 constexpr bool is_own(Own, Default) {
     return !std::is_same_v<Own, Default>;

@@ -43,15 +43,15 @@ double share(MayLose may_lose) {
     return 1;
 }
 
-/// The loss of a part, empty if allowed: "none of its 12 faces is left".
+/// Describes the loss of a part: "none of its 12 faces is left". Empty if the loss is allowed.
 std::string loss(const PartSurface& before, const PartSurface& after, MayLose may_lose) {
     if (before.faces == 0 || may_lose == MayLose::all) return {};
     if (after.faces == 0)
-        return before.faces == 1 ? "its face is gone"
-                                 : fmt::format("none of its {} faces is left", before.faces);
+        return before.faces == 1 ? "it lost its only face"
+                                 : fmt::format("it lost all of its {} faces", before.faces);
     const double lost = 1 - after.area / before.area;
     if (!(before.area > 0) || !std::isfinite(before.area) || !(lost > share(may_lose))) return {};
-    return fmt::format("{} of its area is gone, {:.6g} of {:.6g} left", percentage(lost * 100), after.area,
+    return fmt::format("it lost {} of its area, {:.6g} of {:.6g} remain", percentage(lost * 100), after.area,
                        before.area);
 }
 
@@ -77,7 +77,7 @@ class FacingArea {
         const Vec3 rows[] = {{place.m[0][0], place.m[0][1], place.m[0][2]},
                              {place.m[1][0], place.m[1][1], place.m[1][2]},
                              {place.m[2][0], place.m[2][1], place.m[2][2]}};
-        double squares = 0; // of the transformed normals
+        double squares = 0; // sum of the squares of the transformed normals
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3 c = cross(rows[(i + 1) % 3], rows[(i + 2) % 3]);
             for (std::size_t k = 0; k < 3; ++k) squares += c[k] * dot(by_[k], c);
@@ -148,7 +148,7 @@ void warn_of_lost_surface(const std::vector<PartSurface>& before, const std::vec
     context.warn("W-SURFACE-LOST",
                  fmt::format("'{}' lost surface {}{}", context.name(), losses.front(),
                              more > 0 ? fmt::format("; and of {} more parts", more) : ""),
-                 "validate the scene before this stage; --strict=W-SURFACE-LOST makes it an error");
+                 "validate the scene before this stage; --strict=W-SURFACE-LOST turns this into an error");
 }
 
 } // namespace facetmill

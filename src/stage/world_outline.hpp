@@ -5,7 +5,7 @@
 
 namespace facetmill {
 
-/// A scene of one part without a transform, with the cells' box in the world.
+/// A scene of a single part without a transform, with the cells' box in the world.
 [[nodiscard]] inline Scene world_outline(const CellFlow& flow) {
     Scene outline = flow.outline();
     Part& part = outline.parts.front();

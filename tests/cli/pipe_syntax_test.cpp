@@ -59,7 +59,7 @@ TEST_CASE("values may begin with a dash", "[cli]") {
                       "[{transform: {translate: [-1, 2, 3], centre: true}}]"));
     CHECK(same_stages("load --path -- --a.stl", "[{load: {path: '--a.stl'}}]"));
     CHECK(yaml("transform --translate -- ! orient")
-              .starts_with("command line:1:41: error[E-PIPE]: a value is missing behind '--'"));
+              .starts_with("command line:1:41: error[E-PIPE]: a value is missing after '--'"));
     CHECK(yaml("relax -- ! orient").starts_with("command line:1:25: error[E-PIPE]: a value is missing"));
 }
 
@@ -121,9 +121,8 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
                                         "                          ^\n"
                                         "  hint: load a.stl ! relax 3 ! write a.glb\n");
     CHECK(yaml("foreach lod [ relax ]") ==
-          "command line:1:24: error[E-PIPE]: foreach takes variable=value,value, found 'lod'\n"
-          "  facetmill pipe foreach lod [ relax ]\n"
-          "                         ^~~\n");
+          "command line:1:24: error[E-PIPE]: foreach needs variable=value,value, found 'lod'\n  facetmill "
+          "pipe foreach lod [ relax ]\n                         ^~~\n");
     CHECK(yaml("branch near [ relax")
               .starts_with("command line:1:28: error[E-PIPE]: this '[' is not closed\n"));
     CHECK(yaml("relax ]").starts_with("command line:1:22: error[E-PIPE]: ']' without '['\n"));
@@ -131,9 +130,9 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
               .starts_with("command line:1:33: error[E-PIPE]: '--lambda' is given twice\n"));
     CHECK(same_stages("clean --self_intersections ! orient",
                       "[{clean: {self_intersections: true}}, {orient: null}]"));
-    CHECK(yaml("section z=1 outline.svg")
-              .find("hint: a file that it writes is given by --path outline.svg\n") != std::string::npos);
-    CHECK(yaml("section z=1 z=2").find("hint: stages are separated by ! or +\n") != std::string::npos);
+    CHECK(yaml("section z=1 outline.svg").find("hint: give its output file with --path outline.svg\n") !=
+          std::string::npos);
+    CHECK(yaml("section z=1 z=2").find("hint: separate stages with ! or +\n") != std::string::npos);
     CHECK(yaml("relax --lambda").starts_with("command line:1:22: error[E-PIPE]: '--lambda' needs a value\n"));
 }
 
@@ -155,7 +154,7 @@ TEST_CASE("brackets and keys are nested twenty levels deep at most", "[cli]") {
         CHECK(told.find(too_deep) != std::string::npos);
         CHECK(told.find("error[", told.find(too_deep) + 1) == std::string::npos); // and nothing else
     }
-    const std::string too_long = "error[E-PIPE]: a key of more than 21 parts";
+    const std::string too_long = "error[E-PIPE]: a key has more than 21 parts";
     CHECK(key(20).find(too_long) == std::string::npos);
     for (const int dots : {21, 30'000}) CHECK(key(dots).find(too_long) != std::string::npos);
 }
@@ -164,7 +163,7 @@ TEST_CASE("include takes a file and values for its params", "[cli]") {
     CHECK(same_stages("load a ! include b.yaml --with.keep=10pct --with.name x ! write c",
                       "[{load: a}, {include: b.yaml, with: {keep: 10%, name: x}}, {write: c}]"));
     CHECK(same_stages("load a ! include b.yaml", "[{load: a}, {include: b.yaml}]"));
-    CHECK(yaml("load a ! include b.yaml c.yaml").find("include takes one file, found 'c.yaml'") !=
+    CHECK(yaml("load a ! include b.yaml c.yaml").find("include needs one file, found 'c.yaml'") !=
           std::string::npos);
     CHECK(yaml("load a ! include b.yaml --keep 1").find("include has no option '--keep'") !=
           std::string::npos);
@@ -172,12 +171,11 @@ TEST_CASE("include takes a file and values for its params", "[cli]") {
 
 TEST_CASE("a stage among the values of another lacks its separator", "[cli]") {
     CHECK(yaml("load a.ply simplify 25% ! write o.glb") ==
-          "command line:1:27: error[E-PIPE]: 'simplify' is a stage, found among the values of 'load'\n"
-          "  facetmill pipe load a.ply simplify 25% ! write o.glb\n"
-          "                            ^~~~~~~~\n"
-          "  hint: did you forget ! before simplify?\n");
+          "command line:1:27: error[E-PIPE]: 'simplify' is a stage, found among the values of 'load'\n  "
+          "facetmill pipe load a.ply simplify 25% ! write o.glb\n                            ^~~~~~~~\n  "
+          "hint: add ! before simplify if it is a stage\n");
     CHECK(yaml("load a.ply ! clip z=0 --cap relax 3 foreach n=1 [ write @{n}.ply ]")
-              .find("did you forget ! before foreach?") != std::string::npos);
+              .find("add ! before foreach if it is a stage") != std::string::npos);
     CHECK(same_stages("load a.ply b.ply", "[{load: [a.ply, b.ply]}]"));
     CHECK(same_stages("load simplify", "[{load: simplify}]")); // a file may have that name
 }
@@ -200,12 +198,10 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
         return all;
     };
     CHECK(problems("load a ! write b.glb --report r.json") ==
-          "- load: a\n- write: b.glb\n"
-          "command line:1:37: error[E-PIPE]: '--report' is an option of pipe itself, found behind the stage "
-          "'write'\n"
-          "  facetmill pipe load a ! write b.glb --report r.json\n"
-          "                                      ^~~~~~~~\n"
-          "  hint: it comes before the first stage: facetmill pipe --report ... load ...\n");
+          "- load: a\n- write: b.glb\ncommand line:1:37: error[E-PIPE]: '--report' is an option of pipe, "
+          "found after the stage 'write'\n  facetmill pipe load a ! write b.glb --report r.json\n            "
+          "                          ^~~~~~~~\n  hint: put it before the first stage: facetmill pipe "
+          "--report ... load ...\n");
     CHECK(problems("load a -u mm ! relax 1") ==
           "- load: a\n- relax: 1\n"
           "command line:1:23: error[E-PIPE]: 'load' has no option '-u': options of stages have long names\n"
@@ -213,31 +209,27 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
           "                        ^~\n"
           "  hint: did you mean '--unit'?\n");
     CHECK(problems("transform --translate -1,2,3") == "- transform: {translate: [-1, 2, 3]}\n");
-    CHECK(
-        problems("--report load a.stl ! relax 1", 3)
-            .find(
-                "command line:1:25: error[E-PIPE]: '--report' takes a value, and took the name of the stage "
-                "'load' for it") != std::string::npos);
+    CHECK(problems("--report load a.stl ! relax 1", 3)
+              .find("command line:1:25: error[E-PIPE]: '--report' needs a value, but found the stage name "
+                    "'load'") != std::string::npos);
     CHECK(problems("--report load load a.stl ! relax 1", 3) == "- load: a.stl\n- relax: 1\n");
-    CHECK(problems("load a -q ! relax")
-              .find("command line:1:23: error[E-PIPE]: '-q' is an option of pipe itself") !=
-          std::string::npos);
+    CHECK(
+        problems("load a -q ! relax").find("command line:1:23: error[E-PIPE]: '-q' is an option of pipe,") !=
+        std::string::npos);
 }
 
 TEST_CASE("options as other programs have them are answered with two dashes", "[cli]") {
     const auto hint = [](const std::string& line) {
         const std::string text = yaml(line);
         const auto at = text.find("  hint: ");
-        return text.find("an option of a stage begins with two dashes") == std::string::npos
+        return text.find("an option of a stage starts with two dashes") == std::string::npos
                    ? text
                    : text.substr(at + 8);
     };
     CHECK(yaml("load a ! combine operation=union") ==
-          "command line:1:33: error[E-PIPE]: an option of a stage begins with two dashes, found "
-          "'operation=union'\n"
-          "  facetmill pipe load a ! combine operation=union\n"
-          "                                  ^~~~~~~~~~~~~~~\n"
-          "  hint: write --operation union\n");
+          "command line:1:33: error[E-PIPE]: an option of a stage starts with two dashes, found "
+          "'operation=union'\n  facetmill pipe load a ! combine operation=union\n                            "
+          "      ^~~~~~~~~~~~~~~\n  hint: write --operation union\n");
     CHECK(hint("simplify ratio:10%") == "write --ratio 10%\n");
     CHECK(hint("simplify -faces 100") == "write --faces 100\n");
     CHECK(hint("write a.glb draco=true") == "write --draco true\n");
@@ -315,7 +307,7 @@ TEST_CASE("a word of another language behind a switch gets a hint", "[cli]") {
     for (const char* word : {"yes", "no", "on", "off"}) {
         CAPTURE(word);
         CHECK(yaml(std::string("write b.glb --draco ") + word)
-                  .find("hint: an option is switched by true and false: --draco, --draco=false") !=
+                  .find("hint: switch options with true and false: --draco, --draco=false") !=
               std::string::npos);
     }
 }

@@ -40,6 +40,6 @@ TEST_CASE("parts and materials are paired by their names", "[report]") {
     b.materials[0].base_colour[0] = 0.25;
     CHECK(told(item_changes(a, b, 1e-6)) ==
           "same one\nchanged two: moved by up to 0.5\nremoved two\nremoved gone\n"
-          "added new\nremoved red\nchanged blue: another colour\n");
+          "added new\nremoved red\nchanged blue: different colour\n");
     CHECK(item_changes(Scene{}, Scene{}, 0).empty());
 }

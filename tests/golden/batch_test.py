@@ -181,8 +181,8 @@ class Batch(Case):
         self.write("in/A.off", tetrahedron())
         run = self.batch(expect=2)
         self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
-        self.assertIn("one file where case does not count", run.stderr)
-        self.assertIn("differ in the case of letters only", run.stderr)
+        self.assertIn("the same file if case is ignored", run.stderr)
+        self.assertIn("differ only in case", run.stderr)
         (self.dir / "in/A.off").rename(self.dir / "in/a.ply")
         run = self.batch("--input", "in/**/*", expect=2)
         self.assertIn("is written for in/a.off and for in/a.ply", run.stderr)
@@ -206,7 +206,7 @@ class Batch(Case):
         run = self.batch("--input", "in/**/*.stl", expect=3)
         self.assertIn("no file matches 'in/**/*.stl'", run.stderr)
         self.assertIn("^~~", run.stderr)
-        self.assertIn("without --input", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
+        self.assertIn("give --input, --inputs-from or --table", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
 
     def test_odd_names(self):
         names = ["blank s", "$HOME", "#1", "100%", "'q'\"", "ünïcode", "[a]", "new\nline", "${input}", "a&b;c", "-dash"]
@@ -252,12 +252,12 @@ class Batch(Case):
     def test_prune_removes_nothing_of_what_is_out_of_reach(self):
         self.batch()
         self.write("list", "")
-        self.assertIn("names no file", self.batch("--inputs-from", "list", "--prune", expect=3).stderr)
+        self.assertIn("lists no files", self.batch("--inputs-from", "list", "--prune", expect=3).stderr)
         (self.dir / "in").rename(self.dir / "elsewhere")  # as a disk that is not mounted
-        self.assertIn("is its disk there?", self.batch("--prune", expect=3).stderr)
+        self.assertIn("mount its disk if it has one", self.batch("--prune", expect=3).stderr)
         self.assertIn("'in' is missing", self.batch("--input", "in/a.off", "--prune", expect=3).stderr)
         (self.dir / "in").mkdir()  # its mount point
-        self.assertIn("is its disk there?", self.batch("--prune", expect=3).stderr)
+        self.assertIn("mount its disk if it has one", self.batch("--prune", expect=3).stderr)
         self.assertEqual(len(self.written()), 6)
         (self.dir / "in").rmdir()
         (self.dir / "elsewhere").rename(self.dir / "in")
@@ -525,7 +525,7 @@ stages:
         self.assertEqual(len(self.written()), 6)
 
     def test_arguments(self):
-        for arguments, said in ((("--memory", "much"), "--memory takes an amount"), (("--report", "r.pdf"), "E-REPORT"),
+        for arguments, said in ((("--memory", "much"), "--memory needs a size"), (("--report", "r.pdf"), "E-REPORT"),
                                 (("--set", "relax.x=1"), "E-"), (("-j", "0"), "E-ARGUMENT")):
             self.assertIn(said, self.batch(*arguments, expect=2).stderr)
         self.assertIn("FACETMILL_JOBS", self.batch(env={"FACETMILL_JOBS": "many", "MAKEFLAGS": ""}, expect=2).stderr)

@@ -200,7 +200,7 @@ class Bombs(Case):
 
     def test_deep_and_long_json(self):
         self.check("deep.gltf", b'{"asset":' + b"[" * 5000000, MALFORMED, "E-JSON")
-        self.check("wide.gltf", b'{"asset":{"version":"2.0"},"extras":[' + b"{}," * 1000000 + b"0]}", MALFORMED, "E-EMPTY")
+        self.check("wide.gltf", b'{"asset":{"version":"2.0"},"extras":[' + b"{}," * 1000000 + b"0]}", 0, "faces")
         chain = triangle()
         chain["nodes"] = [{"children": [i + 1]} for i in range(200000)] + [{"mesh": 0}]
         self.check("chain.glb", glb(chain, POINTS), 0, "faces")

@@ -223,7 +223,7 @@ class Keys(Cache):
         scan = self.dir / "scan.ply"
         shutil.copy(SCAN, scan)
         lines = self.explained(scan=scan)
-        self.assertEqual(lines[0], "load runs: no earlier run with these outputs is known")
+        self.assertEqual(lines[0], "load runs: no earlier run wrote these outputs")
         self.assertEqual(lines[3:], ["validate: runs every time", "write: runs every time"])
         self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[:3],
                          [*self.CACHED[:2], "simplify reruns: ratio 50% -> 40%"])
@@ -232,7 +232,7 @@ class Keys(Cache):
         self.assertIn("relax reruns: iterations 1 -> 2", lines[1])
         self.assertIn("lambda", lines[1])
         self.write("p.yaml", PIPELINE.replace("relax: 1", "relax: {iterations: 0x2, lambda: 0.5}"))
-        self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[1], "relax reruns: its options are written in another way")
+        self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[1], "relax reruns: its options are written differently")
         self.assertEqual(lines[2], "simplify reruns: the scene before it changed")
         data = bytearray(scan.read_bytes())
         data[data.index(b"end_header\n") + 11] ^= 1  # the last bit of a coordinate
@@ -310,7 +310,7 @@ class Keys(Cache):
         for nowhere in ("", "relative", str(self.dir / "none"), "/proc/none"):
             self.assertEqual(self.run_it(env={**home, "HOME": nowhere}), expected)
             self.assertFalse((self.dir / "none").exists())
-            self.assertIn("no folder for a cache", self.mill("cache", "stats", env={**home, "HOME": nowhere}, expect=2).stderr)
+            self.assertIn("the cache has no folder", self.mill("cache", "stats", env={**home, "HOME": nowhere}, expect=2).stderr)
             self.run_it("--cache", env={**home, "HOME": nowhere}, expect=2)
         (self.dir / "home/.cache").write_text("a file")
         self.assertEqual(self.run_it(env=home), expected)
@@ -430,7 +430,7 @@ class Trouble(Cache):
         refused = self.limited(least + (8 << 20), "run", "c.yaml", *ALL, "-q", "-j1", "-o", "out")
         self.assertEqual(refused.returncode, 7)
         self.assertIn("there is not enough memory to cut", refused.stderr)
-        self.assertIn("combine some of the parts at a time", refused.stderr)
+        self.assertIn("combine fewer parts at a time", refused.stderr)
         self.assertEqual(self.told("run", "c.yaml", *ALL)[0], 0)
 
     @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")

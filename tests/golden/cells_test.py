@@ -82,12 +82,13 @@ class Cells(LargeCase):
                   "leave that option out"),
                  ("measure --path o.csv", "cells do not keep the order of faces", "leave that option out"),
                  ("split bisect", "split: the method bisect needs the whole mesh", "leave that option out"),
-                 ("split --max_edge 1%", "the target max_edge is decided for the whole mesh", "leave that option out"),
-                 ("crumple --grid 17", "crumple: grid: above 16", "split midpoint before it makes faces small"),
-                 ("crumple --direction normal", "crumple: direction: normals need all faces of a vertex", "free does not"),
+                 ("split --max_edge 1%", "the target max_edge needs the whole mesh", "leave that option out"),
+                 ("crumple --grid 17", "crumple: grid: above 16", "use split midpoint first to make faces smaller"),
+                 ("crumple --direction normal", "crumple: direction: normals need all faces of a vertex", "free works"),
                  ("crumple --boundary fixed", "crumple: boundary: fixed needs all faces", "leave that option out"),
-                 ("crumple --self_intersections avoid", "crumple: self_intersections are between faces anywhere", "allow does"),
-                 ("crumple --mask.material x", "crumple: mask: cells do not carry", "leave that option out"),
+                 ("crumple --self_intersections avoid", "crumple: self_intersections other than allow need the whole mesh",
+                  "leave that option out"),
+                 ("crumple --mask.material x", "crumple: mask: cells do not contain", "leave that option out"),
                  ("clean --weld near --tolerance 1%", "clean: weld: near moves vertices", "exact does not"),
                  ("clean --t_junctions near --tolerance 1%", "clean: t_junctions: near moves vertices", "leave that option out"),
                  ("clean --holes minimal", "clean: holes: whether a patch meets other faces", "leave that option out"),
@@ -156,8 +157,8 @@ class Cells(LargeCase):
         self.mill("pipe", "load", SCAN, "--unit", "mm", "!", "write", "mm.ply")
         self.mill("pipe", "load", SCAN, "--unit", "m", "!", "write", "m.ply")
         for cells in ((), ("--memory", "1M", "--partition", "always")):
-            for files, said in ((("none.ply", "mm.ply"), " no unit: its numbers are taken as mm"),
-                                (("mm.ply", "none.ply"), "'none.ply' has no unit: its numbers are taken as mm")):
+            for files, said in ((("none.ply", "mm.ply"), " no unit, so the numbers are read as mm"),
+                                (("mm.ply", "none.ply"), "'none.ply' has no unit, so the numbers are read as mm")):
                 self.assertIn(said, self.mill("pipe", *cells, "load", *files, "!", "write", "o.ply").stderr)
                 self.assertIn(b"comment unit: mm\n", (self.dir / "o.ply").read_bytes()[:200])
         self.assertIn("E-CELLS", self.mill("pipe", *cells, "load", "mm.ply", "m.ply", "!", "write", "o.ply", expect=2).stderr)

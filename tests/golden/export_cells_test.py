@@ -210,8 +210,8 @@ class ExportOfCells(LargeCase):
             self.assertEqual(run.stdout, "")
 
         here = ("p q.yaml", "-D", "input=large.ply", "-o", "out", "--keep-cells", "k")
-        refused("a memory each", *here)
-        refused("a memory each", *here, "--memory", "50%")
+        refused("a fixed memory size", *here)
+        refused("a fixed memory size", *here, "--memory", "50%")
         refused("the run has no cells: in memory", *here, "--memory", "16G")
         refused("E-CONFLICT", *here, *MEMORY, "--input", "*.ply")
         refused("--keep-cells DIR", "p q.yaml", "-D", "input=large.ply", "-o", "out", "--cell-jobs", 2)
@@ -221,9 +221,9 @@ class ExportOfCells(LargeCase):
         self.write("clip.yaml", PIPELINE.replace('simplify: {faces: "${keep}"}', "clip: {plane: z=50%, keep: back}"))
         refused("'clip' works on cells by itself", "clip.yaml", *here[1:], *MEMORY)
         for job in ("x", "0/3", "4/3", "1.5/3", "/", "1/", "-1/3", "nan/3"):
-            self.assertIn("--cells-job takes a job", self.job(job, expect=2).stderr)
+            self.assertIn("--cells-job needs a job", self.job(job, expect=2).stderr)
         for option in ("--report", "--timings", "--depfile"):
-            self.assertIn(f"and {option} is of a whole run", self.job("1/2", option, "r.json", expect=2).stderr)
+            self.assertIn(f"so {option} cannot be used", self.job("1/2", option, "r.json", expect=2).stderr)
         run = self.mill("run", "p q.yaml", "-D", "input=large.ply", "--memory", "16G", "--keep-cells", self.kept, "--cells-job", "1/2",
                         "-o", "out", expect=2)
         self.assertIn("the run has no cells: in memory", run.stderr)
@@ -231,7 +231,7 @@ class ExportOfCells(LargeCase):
                         "-o", "out", expect=2)
         self.assertIn("each job would do 'clean' again", run.stderr)
         run = self.mill("run", "p q.yaml", "-D", "input=large.ply", *MEMORY, "--cells-job", "1/2", expect=2)
-        self.assertIn("give their folder", run.stderr)
+        self.assertIn("give the folder", run.stderr)
         self.assertFalse(self.kept.exists())
 
 

@@ -145,22 +145,22 @@ class Pages(Case):
     def test_what_closes_a_cut_is_no_deviation(self):
         page, _ = self.report(*"generate icosphere --subdivisions 4 ! clip z=0 --cap ! write half.ply".split())
         text = " ".join(shown(page).split())
-        self.assertRegex(text, r"deviation [\d.e-]+ % of the diagonal, from the scene as loaded, without caps")
+        self.assertRegex(text, r"deviation from the input: [\d.e-]+ % of the diagonal.* \(caps and removed parts not counted\)")
         self.assertRegex(text, r"The \d+ faces that close cuts \(caps\) are grey and not measured")
-        self.assertLess(float(re.search(r"deviation ([\d.e-]+) % of the diagonal", text)[1]), 0.001)
+        self.assertLess(float(re.search(r"deviation from the input: ([\d.e-]+) % of the diagonal", text)[1]), 0.001)
 
     def test_what_a_difference_leaves_of_its_tool_is_no_cap(self):
         page, _ = self.report(*"generate cube ! generate icosphere ! transform --only icosphere --scale 1.25 ! combine difference"
                                " --with icosphere ! write drilled.ply".split())
         text = shown(page)
-        self.assertNotRegex(text, r"\(caps\)|without caps")  # the scene that it is compared with has the ball's surface
-        self.assertLess(float(re.search(r"deviation\s+([\d.e-]+) % of the diagonal", text)[1]), 1e-9)
+        self.assertNotRegex(text, r"\(caps\)|caps and removed")  # the scene that it is compared with has the ball's surface
+        self.assertLess(float(re.search(r"deviation\s+from [^:]+: ([\d.e-]+) % of the diagonal", text)[1]), 1e-9)
         self.assertNotIn('"cap":true', page)
         # Nor where it is of several, whose faces have the numbers of their groups.
         page, _ = self.report(*"generate cube ! generate icosphere ! generate icosphere --name second ! transform --only icosphere"
                                " --scale 1.25 ! transform --only second --translate 1,1,1 ! combine union --only icosphere,second !"
                                " combine difference --with icosphere ! write drilled.ply".split())
-        self.assertNotRegex(shown(page), r"\(caps\)|without caps")
+        self.assertNotRegex(shown(page), r"\(caps\)|caps and removed")
         self.assertNotIn('"cap":true', page)
 
     def test_distances_are_those_in_the_pose_that_is_seen(self):
@@ -169,12 +169,12 @@ class Pages(Case):
         scene = json.loads((self.dir / "ball.gltf").read_text())
         primitive = scene["meshes"][0]["primitives"][0]
         primitive["targets"] = [{"POSITION": primitive["attributes"]["POSITION"]}]
-        farthest, said = {}, "Both are in the pose that the pictures show"
+        farthest, said = {}, "Both surfaces are in the pose of the pictures"
         for weight in (0, 1):
             scene["meshes"][0]["weights"] = [weight]
             self.write("ball.gltf", json.dumps(scene))
             page, _ = self.report("load", "ball.gltf", "!", "simplify", "30%", "!", "write", "o.glb")
-            self.assertRegex(page, r'<th scope="row">deviation</th><td>[\d.e-]+ % of the diagonal, from the scene before')
+            self.assertRegex(page, r'<th scope="row">deviation</th><td>from the scene before [^:]+: [\d.e-]+ % of the diagonal')
             farthest[weight] = float(re.search(r"farthest inside\s+(-[\d.]+)", shown(page))[1])
             self.assertEqual(said in page, weight == 1)
             self.assertIn('"deviation":', page, "the 3D view has the distances, too")
@@ -278,11 +278,11 @@ class Pages(Case):
         self.write("o.off", OPEN)
         page, _ = self.report("load", "o.off", "!", "validate", "--closed", "--faces.max", "2", expect=1)
         text = shown(page)
-        for words in ("expected", "true", "found", "false", "margin", "1 too many (50 % of the limit)", "evidence",
+        for words in ("expected", "true", "found", "false", "margin", "1 too many (50 % above the limit)", "evidence",
                       "clean: {holes: minimal}"):
             self.assertIn(words, text)
         self.assertIn('id="check-1" src="data:image/png', page)  # where it fails
-        commands = [html.unescape(c) for c in re.findall(r"<dt>(?:may help|reproduce)</dt><dd><pre[^>]*>(.*?)</pre>", page)]
+        commands = [html.unescape(c) for c in re.findall(r"<dt>(?:try|reproduce)</dt><dd><pre[^>]*>(.*?)</pre>", page)]
         self.assertEqual(commands[1], "facetmill pipe load o.off ! validate --closed --faces.max 2")
         for command, code in zip(commands, (0, 1)):
             self.mill(*shlex.split(command)[1:], expect=code)
@@ -308,9 +308,9 @@ class Pages(Case):
         """A scan that does not say what is up, cut such that by itself it would be taken to lie."""
         page, _ = self.report("load", SCAN, "!", "clip", "y=-100", "!", "validate", "--closed", expect=1)
         text = shown(page)
-        self.assertIn("left of the slider before (load)", text)  # by one camera
+        self.assertIn("left of the slider: after load", text)  # by one camera
         viewed = json.loads(re.search(r'<script type="application/json">(.*?)</script>', page, re.S)[1])
-        self.assertEqual([s["name"] for s in viewed["scenes"]], ["as loaded", "the scene at 'validate'"])
+        self.assertEqual([s["name"] for s in viewed["scenes"]], ["the input", "the scene at 'validate'"])
         self.assertEqual(viewed["scenes"][0]["up"], viewed["scenes"][1]["up"])
         # A cut moves nothing: what rounding loses, some 1e-14, is no scale.
         ticks = re.findall(r">([+-][\d.e-]+)</text>", page)
@@ -452,15 +452,15 @@ class Pages(Case):
         self.assertEqual(lines[0], "a and b differ: 4 removed, 3 added, 2 same")
         self.assertEqual(sorted(lines[1:]), sorted([
             "removed gone.ply", "removed one/x.ply", "added other/x.ply", "added sub/same.obj",
-            "removed two.obj not paired, as several are called alike: the second folder has two.glb",
-            "removed two.ply not paired, as several are called alike: the second folder has two.glb",
-            "added two.glb not paired, as several are called alike: the first folder has two.obj, two.ply",
+            "removed two.obj not paired, because several files share this name: the second folder has two.glb",
+            "removed two.ply not paired, because several files share this name: the second folder has two.glb",
+            "added two.glb not paired, because several files share this name: the first folder has two.obj, two.ply",
             "same cube.ply and cube.glb deviation 0 %", "same sub/same.ply deviation 0 %"]))
         index = (self.dir / "i.html").read_text()
         self.assertIn('<a href="i/cube.ply.html"><code>cube.ply and cube.glb</code></a>', index)
         self.assertIn("the first folder has two.obj, two.ply", index)
         self.assertIn("<h1>cube.ply and cube.glb</h1>", re.sub(r'<h1 title=".*?">', "<h1>", (self.dir / "i/cube.ply.html").read_text()))
-        self.assertIn("not paired, as several", (self.dir / "i.md").read_text())
+        self.assertIn("not paired, because several", (self.dir / "i.md").read_text())
         files = json.loads(self.mill("diff", "a", "b", "--json", expect=1).stdout)["files"]
         paths = {f["path"]: f["paths"] for f in files}
         self.assertEqual(paths["cube.ply"], {"a": "cube.ply", "b": "cube.glb"})
@@ -503,7 +503,7 @@ class Pages(Case):
         self.mill("diff", "a.obj", "b.obj", "--report", "d.html", "--report", "d.md", expect=1)
         text = shown((self.dir / "d.html").read_text())
         for words in (r"removed\s+left", r"changed\s+right", r"added\s+top", r"moved by up to 1\b", r"added\s+green",
-                      r"verdict\s+\d+ of \d+ sound", r"of geometry"):
+                      r"soundness\s+\d+ of \d+ checks passed", r"of geometry"):
             self.assertRegex(text, words)
         self.assertIn("| removed | left |", (self.dir / "d.md").read_text())
 
@@ -513,7 +513,7 @@ class Pages(Case):
                     "usemtl red\nf 1 3 2\n" + ("f 1 2 4\n" if height else ""))
         self.write("a.obj", obj(0))
         self.write("b.obj", obj(1))
-        for other, words in (("b.obj", "2 same; where they are differs for 2, see"), ("a.obj", "2 same ")):
+        for other, words in (("b.obj", "2 same; 2 of them cover different areas"), ("a.obj", "2 same ")):
             self.mill("diff", "a.obj", other, "--html", "d.html", expect=1 if other == "b.obj" else 0)
             page = (self.dir / "d.html").read_text()
             self.assertRegex(" ".join(shown(page).split()), "Materials by name " + words)
@@ -535,7 +535,7 @@ class Pages(Case):
         self.assertEqual(len(digests), 1, run.stdout)
         for name in ("d.html", "d.md"):
             text = (self.dir / name).read_text()
-            self.assertIn("other emissiveFactor, normalTexture, roughnessFactor", text)
+            self.assertIn("different emissiveFactor, normalTexture, roughnessFactor", text)
             self.assertIn(digests[0][0], text)
             self.assertNotRegex(text, r"\b[0-9a-f]{64}\b")
         self.assertIn("<code>0/<wbr>normalTexture/<wbr>index/<wbr>source</code>", (self.dir / "d.html").read_text())
@@ -547,14 +547,14 @@ class Pages(Case):
         self.mill("pipe", "-q", "--report", "alone.md", *line)
         self.mill("pipe", "-q", "--report", "beside.md", "--report", "beside.html", *line)
         text = (self.dir / "alone.md").read_text()
-        deviation = re.search(r"\nDeviation: (\S+) % of the diagonal, from the scene as loaded; what was left out of it does not count\n", text)
+        deviation = re.search(r"\nDeviation from the input: (\S+) % of the diagonal \(removed parts not counted\)\n", text)
         self.assertGreater(float(deviation[1]), 0.1)
-        self.assertRegex(" ".join(shown(page).split()), rf"deviation {deviation[1]} % of the diagonal, from")
-        self.assertIn(f"Deviation: {deviation[1]} %", (self.dir / "beside.md").read_text())
+        self.assertRegex(" ".join(shown(page).split()), rf"deviation from the input: {deviation[1]} % of the diagonal ")
+        self.assertIn(f"Deviation from the input: {deviation[1]} %", (self.dir / "beside.md").read_text())
         self.assertIn("| faces | 5,120 | 1,280 | 25 % |\n", text)
         size = (self.dir / "small.glb").stat().st_size
         self.assertIn(f"| bytes | - | {size / 1000:.1f} kB | - |\n", text)
-        self.assertRegex(text, r"\| of geometry \| - \| [\d.]+ kB \| - \|\n\| of JSON \|")
+        self.assertRegex(text, r"\| bytes of geometry \| - \| [\d.]+ kB \| - \|\n\| bytes of JSON \|")
         # Where a check fails nothing is written, and the scene there is measured.
         self.write("o.off", CLOSED)
         for check, place in ((["!", "validate", "--faces.max", "9"], "validate"), (["--ensure", "{faces: {max: 9}}"], "crumple")):
@@ -563,8 +563,8 @@ class Pages(Case):
             failed = (self.dir / "failed.md").read_text()
             self.assertRegex(failed, rf"\| bytes \| {len(CLOSED)} bytes \| - \| - \|")
             page, _ = self.report(*failing, expect=1)
-            deviation = re.search(r"\nDeviation: (\S+) % of the diagonal", failed)
-            self.assertIn(f"deviation {deviation[1]} % of the diagonal", " ".join(shown(page).split()), place)
+            deviation = re.search(r"\nDeviation from the input: (\S+) % of the diagonal", failed)
+            self.assertIn(f"deviation from the input: {deviation[1]} % of the diagonal", " ".join(shown(page).split()), place)
         # The scene as loaded is taken from the cache, too.
         cached = {"FACETMILL_CACHE": str(self.dir / "cache")}
         for _ in range(2):

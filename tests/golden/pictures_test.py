@@ -76,9 +76,9 @@ class Pictures(Case):
     def test_what_cannot_be_drawn_is_told(self):
         self.mill("pipe", "generate", "cube", "!", "write", "a.off")
         alone = self.mill("render", "a.off", "-o", "a.png", "--attribute", "deviation", expect=2).stderr
-        self.assertIn("deviation is measured from another mesh", alone)
+        self.assertIn("deviation needs another mesh", alone)
         unknown = self.mill("render", "a.off", "-o", "a.png", "--attribute", "warmth", expect=5).stderr
-        self.assertIn("measured are min_angle, max_angle", unknown)
+        self.assertIn("render can measure min_angle, max_angle", unknown)
 
 
 if __name__ == "__main__":

@@ -354,9 +354,9 @@ class Process(Case):
         for name, size in (("mm.obj", 1000), ("m.obj", 1)):
             self.write(name, "".join(f"v {x * size} {y * size} {z * size}\n" for x, y, z in corners) + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
         for given in ((), ("--unit", "mm"), ("--unit", "m,mm")):
-            self.assertIn("--unit mm,m says so of the files, which state none", self.mill("diff", "mm.obj", "m.obj", *given, expect=1).stdout)
+            self.assertIn("use --unit mm,m, because neither file states a unit", self.mill("diff", "mm.obj", "m.obj", *given, expect=1).stdout)
         self.mill("diff", "mm.obj", "m.obj", "--unit", "mm,m")
-        self.assertIn("is that of the first without --unit", self.mill("diff", "m.obj", "m.obj", "--unit", "mm,m", expect=1).stdout)
+        self.assertIn("if the first file is read without --unit", self.mill("diff", "m.obj", "m.obj", "--unit", "mm,m", expect=1).stdout)
 
     def test_diff_compares_lines(self):
         points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -512,7 +512,7 @@ class Process(Case):
         self.write("bad.yaml", "facetmill: 1\nstages: [{load: t.off}, {relux: 3}]\n")
         run = self.mill("check", "none.yaml", "bad.yaml", expect=2)
         self.assertIn("E-STAGE", run.stderr)
-        self.assertIn("there is no pipeline 'none.yaml'", run.stderr)
+        self.assertIn("pipeline 'none.yaml' does not exist", run.stderr)
 
     def test_draco_files_and_options_of_other_formats(self):
         self.write("t.off", TRIANGLE)
@@ -542,7 +542,7 @@ class Process(Case):
         self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
         for name in "fg":
             self.write(f"{name}.yaml", "facetmill: 1\nstages: [{load: t.off}]\nreport: r.json\n")
-        self.assertIn("'r.json' is written by another pipeline", self.mill("run", "f.yaml", "g.yaml", expect=2).stderr)
+        self.assertIn("another pipeline of this run also writes 'r.json'", self.mill("run", "f.yaml", "g.yaml", expect=2).stderr)
         self.write("d.yaml", "facetmill: 1\nstages: [{laod: t.off}]\n")
         self.write("e.yaml", "facetmill: 1\nstages: [{load: t.off}, {wirte: a.ply}]\n")
         run = self.mill("check", "d.yaml", "e.yaml", expect=2)
@@ -683,7 +683,7 @@ class Process(Case):
         self.write("t.off", TRIANGLE)
         run = self.mill("pipe", "load", "t.off", "!", "validate", "--closed", expect=1)
         self.assertEqual(run.stderr.count("closed' must be"), 1, run.stderr)
-        self.assertIn("3 locations, the first face 0 of 't'", run.stderr)
+        self.assertIn("3 locations, first: face 0 of 't'", run.stderr)
         self.assertTrue(run.stderr.endswith("failed; no output was written; exit code 1\n"), run.stderr)
         run = self.mill("pipe", "load", "none.off", "!", "write", "a.ply", expect=3)
         self.assertEqual(run.stderr.count("none.off'"), 1, run.stderr)
@@ -732,7 +732,7 @@ class Process(Case):
         told = self.mill("pipe", "--report", "r.json", *words).stderr
         self.assertEqual(told.count("at or below the target"), 10)
         self.assertIn("warning[W-SIMPLIFY-NOTHING]: 20 more like these", told)
-        self.assertIn("and 10 more lines, which --report run.txt has", told)
+        self.assertIn("and 10 more lines (--report run.txt lists all)", told)
         stages = {s["name"]: s for s in json.loads((self.dir / "r.json").read_text())["stages"]}
         self.assertEqual(len(stages["simplify"]["warnings"]), 30)
         lines = self.mill("pipe", "--log", "json", *words).stderr.splitlines()

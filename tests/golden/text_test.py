@@ -119,9 +119,9 @@ class Text(Case):
         for words in (["help", "remesh"], ["remesh", "a.ply"], ["pipe", "load", "a.ply", "!", "remesh"], ["stages", "remesh"]):
             self.assertIn("split --max_edge 2%, simplify 40% --method shortest-edge, relax 3 --method taubin",
                           self.mill(*words, expect=2).stderr)
-        for words, choices, hint in ((["schema", "reprot"], "WHAT is one of pipeline, report, batch, ", "did you mean 'report'?"),
+        for words, choices, hint in ((["schema", "reprot"], "WHAT must be one of pipeline, report, batch, ", "did you mean 'report'?"),
                                      (["schema", "qqqq"], "diff-folders, found 'qqqq'", "see facetmill schema --help"),
-                                     (["export", "--to=nin", "p.yaml"], "--to is one of ninja, make, snakemake, found 'nin'",
+                                     (["export", "--to=nin", "p.yaml"], "--to must be one of ninja, make, snakemake, found 'nin'",
                                       "did you mean 'ninja'?")):
             said = self.mill(*words, expect=2).stderr
             self.assertIn(choices, said)

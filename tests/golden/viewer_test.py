@@ -119,7 +119,7 @@ report: page.html
             self.page(browser, self.dir / "page.html")
             self.assertGreater(browser.do(SHOWN)["covered"], 0.05)
             labels = browser.do("[...document.querySelectorAll('.viewer fieldset label')].map((l) => l.textContent.trim())")
-            self.assertEqual(labels, ["before: as loaded", "small.glb, small.ply", "smaller.ply"])
+            self.assertEqual(labels, ["before: the input", "small.glb, small.ply", "smaller.ply"])
             self.choose(browser, "colours", "deviation")
             self.assertRegex(browser.do("document.querySelector('.viewer .scale').textContent"), r"largest [\d.]+ mm")
             browser.size(1400, 900)  # the distances of a stage are below its picture and its words, as wide as both
@@ -144,7 +144,7 @@ report: page.html
             self.page(browser, self.dir / "page.html")
             self.assertNotIn("caps", browser.do("document.querySelector('.viewer .caption').textContent"))
             self.choose(browser, "colours", "deviation")
-            self.assertIn("what closes cuts (caps) is grey", browser.do("document.querySelector('.viewer .caption').textContent"))
+            self.assertIn("faces that close cuts (caps) are grey", browser.do("document.querySelector('.viewer .caption').textContent"))
             shown = browser.do(SHOWN)
             self.assertGreater(shown["covered"], 0.02)
             self.assertLess(abs(shown["red"] - shown["blue"]), 12, shown)  # neither is far off

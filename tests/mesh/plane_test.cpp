@@ -84,12 +84,12 @@ TEST_CASE("planes of any length are told apart exactly", "[geometry]") {
 TEST_CASE("a plane without a direction is refused", "[geometry]") {
     CHECK(test::failure([] {
               check_plane({{0, 0, 0}, {}, 0});
-          }) ==
-          "usage [E-PLANE] the plane's normal must be finite and not zero | for example normal: [0, 0, 1]");
+          }) == "usage [E-PLANE] the plane's normal must be finite and not zero | give a direction: plane: "
+                "{normal: [0, 0, 1]}");
     CHECK(test::failure([] {
               check_plane({{0, 0, NAN}, {}, 0});
-          }) ==
-          "usage [E-PLANE] the plane's normal must be finite and not zero | for example normal: [0, 0, 1]");
+          }) == "usage [E-PLANE] the plane's normal must be finite and not zero | give a direction: plane: "
+                "{normal: [0, 0, 1]}");
     CHECK(test::failure([] {
               check_plane({{0, 0, 1}, {0, HUGE_VAL, 0}, 0});
           }) == "usage [E-PLANE] the plane's point and offset must be finite numbers");

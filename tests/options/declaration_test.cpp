@@ -83,14 +83,14 @@ TEST_CASE("every wrong option is reported at once", "[options]") {
                           {"factr", Value::scalar("1")},
                           {"method", Value::scalar("beter")},
                           {"name", Value::scalar("smooth")}})) ==
-          "E-RANGE 'iterations' must be in the range x >= 1, found '0'\n"
-          "E-KEY relax has no option 'factr' (did you mean 'factor'?)\n"
-          "E-CHOICE 'method' is one of plain, better, found 'beter' (did you mean 'better'?)\n");
+          "E-RANGE 'iterations' must be in the range x >= 1, found '0'\nE-KEY relax has no option 'factr' "
+          "(did you mean 'factor'?)\nE-CHOICE 'method' must be one of plain, better, found 'beter' (did you "
+          "mean 'better'?)\n");
 }
 
 TEST_CASE("options that exclude each other", "[options]") {
     CHECK(complaints(map({{"ratio", Value::scalar("10%")}, {"faces", Value::scalar("10")}})) ==
-          "E-CONFLICT relax: at most one of ratio, faces may be given, found ratio and faces\n");
+          "E-CONFLICT relax: only one of ratio, faces may be given, found ratio and faces\n");
 }
 
 TEST_CASE("nested groups say what they miss", "[options]") {
@@ -116,9 +116,9 @@ TEST_CASE("a list option takes one value or several", "[options]") {
 }
 
 TEST_CASE("a bare value that is a choice of another option is answered with its name", "[options]") {
-    CHECK(complaints(Value::scalar("plain")) == "E-TYPE a bare value of relax is its 'iterations', found "
-                                                "'plain' (plain is a value of 'method': give it that "
-                                                "name)\n");
+    CHECK(complaints(Value::scalar("plain")) ==
+          "E-TYPE a bare value of relax sets 'iterations', found 'plain' (plain is a value of 'method', so "
+          "write that name)\n");
     CHECK(complaints(Value::scalar("fancy")) == "E-TYPE expected an integer, found 'fancy'\n");
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("a share where a count belongs is answered with the option that takes 
     for (const char* share : {"10%", "0.1"}) {
         d.declaration.parse(map({{"faces", Value::scalar(share)}}), &read, "reduce", problems);
         CHECK(problems.all().back().hint ==
-              fmt::format("a share is the value of 'ratio': write reduce: {{ratio: {}}}", share));
+              fmt::format("a ratio sets 'ratio': write reduce: {{ratio: {}}}", share));
     }
     d.declaration.parse(map({{"faces", Value::scalar("1.5")}}), &read, "reduce", problems);
     CHECK(problems.all().back().hint.empty());

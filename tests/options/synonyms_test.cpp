@@ -16,7 +16,7 @@ TEST_CASE("options are found by what other programs call them, where the option 
           "here it is ratio, the share that remains, not the share that is removed");
     CHECK(hint_for_option("preserve_border", simplify) == "here it is lock: {boundary: true}");
     CHECK(hint_for_option("inside_out", validate) ==
-          "here it is (outward_oriented: true), which says the opposite");
+          "here it is (outward_oriented: true), which means the opposite");
     CHECK(hint_for_option("keep_largest", stage_named("clean")->options->known_names()) ==
           "here it is components: {keep: 1}");
     CHECK(hint_for_option("keep_largest", validate).find("keep: 1") == std::string::npos);

@@ -53,13 +53,12 @@ TEST_CASE("numbers are finite", "[options]") {
 
 TEST_CASE("a number with a unit, and the name of a param in signs of other languages, say what to write",
           "[options]") {
-    CHECK(complaint<double>("2mm") ==
-          "E-TYPE expected a finite number, found '2mm' (it has no unit here: write 2; "
-          "transform: {unit: mm} converts a scene to a unit)");
+    CHECK(complaint<double>("2mm") == "E-TYPE expected a finite number, found '2mm' (the number has no unit "
+                                      "here: write 2; transform: {unit: mm} converts a scene to a unit)");
     CHECK(complaint<double>("10%") == "E-TYPE expected a finite number, found '10%' (write 0.1)");
     CHECK(complaint<double>("2 kg") == "E-TYPE expected a finite number, found '2 kg'");
     for (const char* text : {"$keep", "{keep}", "{{ keep }}"})
-        CHECK(complaint<Ratio>(text).find("(the value of a param is written ${keep})") != std::string::npos);
+        CHECK(complaint<Ratio>(text).find("(write the value of a param as ${keep})") != std::string::npos);
     CHECK(complaint<Ratio>("{a, b}").find("param") == std::string::npos);
 }
 
@@ -77,14 +76,13 @@ TEST_CASE("a bare whole number is no ratio, and both meanings are offered", "[op
     CHECK(parsed<Ratio>("5e-1")->value == 0.5); // as programs write it
     CHECK(parsed<Ratio>("1e-05")->value == 0.00001);
     CHECK(complaint<Ratio>("5e1").find("expected a ratio") != std::string::npos);
-    CHECK(complaint<Ratio>("1") ==
-          "E-TYPE expected a ratio (25% or 0.25), found '1' (write 100%, or name the option "
-          "that counts (faces: 1))");
+    CHECK(complaint<Ratio>("1") == "E-TYPE expected a ratio (25% or 0.25), found '1' (write 100%, or name "
+                                   "the option for a count (faces: 1))");
     CHECK(complaint<Ratio>("10k") ==
-          "E-TYPE expected a ratio (25% or 0.25), found '10k' (name the option that counts (faces: 10000))");
+          "E-TYPE expected a ratio (25% or 0.25), found '10k' (name the option for a count (faces: 10000))");
     CHECK(complaint<Ratio>("-5") ==
-          "E-TYPE expected a ratio (25% or 0.25), found '-5' (a ratio is not below 0)");
-    CHECK(complaint<Ratio>("5000") == "E-TYPE expected a ratio (25% or 0.25), found '5000' (a ratio has a "
+          "E-TYPE expected a ratio (25% or 0.25), found '-5' (a ratio cannot be negative)");
+    CHECK(complaint<Ratio>("5000") == "E-TYPE expected a ratio (25% or 0.25), found '5000' (a ratio needs a "
                                       "point or a % (50%); for a count write faces: 5000)");
 }
 
@@ -187,10 +185,10 @@ TEST_CASE("what is no count of bytes is refused with a hint", "[options]") {
               "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB, and K, M, G, T for 1024 bytes each step"},
              {"10mm",
               "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB, and K, M, G, T for 1024 bytes each step"},
-             {"-5MB", "bytes are counted from 0"},
-             {"-1", "bytes are counted from 0"},
-             {"0.5", "bytes come whole"},
-             {"0.0001kB", "bytes come whole"},
+             {"-5MB", "bytes cannot be negative"},
+             {"-1", "bytes cannot be negative"},
+             {"0.5", "a number of bytes must be whole"},
+             {"0.0001kB", "a number of bytes must be whole"},
              {"8193TiB", "at most 9007199254740992 (8192TiB)"},
              {"1e300", "at most 9007199254740992 (8192TiB)"},
              {"1e300TB", "at most 9007199254740992 (8192TiB)"}}) {

@@ -87,7 +87,7 @@ TEST_CASE("merge keys: the map's own keys win, then the earlier of several", "[p
     CHECK(shown(*parsed(base + "c: {<<: *a, q: 9}").find("c")) == "{q: 9, p: 1}");
     CHECK(shown(*parsed(base + "c: {<<: [*a, *b]}").find("c")) == "{p: 1, q: 2, r: 4}");
     CHECK(problems_of(base + "c:\n  <<: *a\n  <<: *b\n") ==
-          "p.yaml:5:3: error[E-DUPLICATE]: the key '<<' is there twice\n"
+          "p.yaml:5:3: error[E-DUPLICATE]: the key '<<' occurs twice\n"
           "    <<: *b\n"
           "    ^~\n"
           "  hint: several maps are merged by <<: [*a, *b]");
@@ -104,11 +104,11 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         std::string text, problem;
     };
     const Case cases[] = {
-        {"a: 1\nb: 2\na: 3\n", "p.yaml:3:1: error[E-DUPLICATE]: the key 'a' is there twice\n"
+        {"a: 1\nb: 2\na: 3\n", "p.yaml:3:1: error[E-DUPLICATE]: the key 'a' occurs twice\n"
                                "  a: 3\n"
                                "  ^\n"
                                "  hint: the first is at p.yaml:1:1"},
-        {"s: {a: 1, a: 2}\n", "p.yaml:1:11: error[E-DUPLICATE]: the key 'a' is there twice\n"
+        {"s: {a: 1, a: 2}\n", "p.yaml:1:11: error[E-DUPLICATE]: the key 'a' occurs twice\n"
                               "  s: {a: 1, a: 2}\n"
                               "            ^\n"
                               "  hint: the first is at p.yaml:1:5"},
@@ -136,7 +136,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
          "  e: [${f}]\n"
          "      ^~~~\n"
          "  hint: write \"${f}\"\n"
-         "p.yaml:4:1: error[E-DUPLICATE]: the key 'g' is there twice\n"
+         "p.yaml:4:1: error[E-DUPLICATE]: the key 'g' occurs twice\n"
          "  g: 2\n"
          "  ^\n"
          "  hint: the first is at p.yaml:3:1"},
@@ -170,15 +170,15 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
                              "  a: {b: 1 c: 2}\n"
                              "            ^\n"
                              "  hint: a text with special characters must be quoted"},
-        {"a: b: c\n", "p.yaml:1:5: error[E-YAML]: a ':' cannot stand here\n"
+        {"a: b: c\n", "p.yaml:1:5: error[E-YAML]: unexpected ':'\n"
                       "  a: b: c\n"
                       "      ^\n"
                       "  hint: quote a text that holds ': ', and mind the indentation"},
         {"- relax\n  when: true\n",
-         "p.yaml:2:7: error[E-YAML]: a ':' cannot stand here\n"
+         "p.yaml:2:7: error[E-YAML]: unexpected ':'\n"
          "    when: true\n"
          "        ^\n"
-         "  hint: a stage with keys beside it needs a colon: '- relax:' in the line above"},
+         "  hint: a stage with further keys needs a colon: '- relax:' in the line above"},
         {"s:\n- a: \"scan.ply\n- b: 1\n", "p.yaml:2:6: error[E-YAML]: the quote is never closed\n"
                                           "  - a: \"scan.ply\n"
                                           "       ^\n"
@@ -196,7 +196,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
                             "  a: 'it's.glb'\n"
                             "         ^\n"
                             "  hint: inside '...' a ' is written '', or take \"...\""},
-        {"s:\n\t- a: 1\n", "p.yaml:2:2: error[E-YAML]: an item of a list ('- ...') cannot stand here\n"
+        {"s:\n\t- a: 1\n", "p.yaml:2:2: error[E-YAML]: unexpected list item ('- ...')\n"
                            "  \t- a: 1\n"
                            "  \t^\n"
                            "  hint: indent with blanks: YAML takes no tabs there"},

@@ -106,12 +106,12 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     has("  - include: needs.yaml\n", "needs.yaml:2:10: error[E-PARAM]: the parameter 'k' has no value");
     has("  - include: needs.yaml\n", "with: {k: ...}");
     has("  - include: needs.yaml\n    with: {k: 2}\n", "error[E-TYPE]");
-    has("  - include: needs.yaml\n    with: {k: 10%, kk: 1}\n", "what is included has no parameter 'kk'");
+    has("  - include: needs.yaml\n    with: {k: 10%, kk: 1}\n", "the included file has no parameter 'kk'");
     has("  - include: list.yaml\n", "list.yaml:1:1: error[E-TYPE]");
     has("  - include: broken.yaml\n", "broken.yaml:");
     has("  - include: needs.yaml\n    when: true\n", "'when' is not a key of an item");
     has("  - include: needs.yaml\n    when: true\n",
-        "hint: it stands beside one stage: give it to those of include");
+        "hint: it applies to a single stage: add it to the stages of include");
     CHECK_THROWS_AS(problems_in(folder, "  - include: gone.yaml\n"), Error);
 }
 

@@ -133,10 +133,8 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "    - test-cut: 101\n"
          "                ^~~"},
         {stages("  - test-cut: {faces: 3, ratio: 10%}\n"),
-         "p.yaml:4:33: error[E-CONFLICT]: test-cut: at most one of faces, ratio may be given, found faces "
-         "and ratio\n"
-         "    - test-cut: {faces: 3, ratio: 10%}\n"
-         "                                  ^~~"},
+         "p.yaml:4:33: error[E-CONFLICT]: test-cut: only one of faces, ratio may be given, found faces and "
+         "ratio\n    - test-cut: {faces: 3, ratio: 10%}\n                                  ^~~"},
         {stages("  - test-cut: {depth: 3parsec}\n"),
          "p.yaml:4:23: error[E-TYPE]: expected a length (2, 2mm, 0.5%, 0.5% of part), found '3parsec'\n"
          "    - test-cut: {depth: 3parsec}\n"
@@ -153,10 +151,8 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "            ^\n"
          "  hint: names are unique, so that --set and the report can use them"},
         {stages("  - test-cut: 3\n    ensure: {closd: true}\n"),
-         "p.yaml:5:14: error[E-KEY]: ensure knows no property 'closd'\n"
-         "      ensure: {closd: true}\n"
-         "               ^~~~~\n"
-         "  hint: did you mean 'closed'?"},
+         "p.yaml:5:14: error[E-KEY]: ensure has no property 'closd'\n      ensure: {closd: true}\n           "
+         "    ^~~~~\n  hint: did you mean 'closed'?"},
         {stages("  - test-cut: 3\n    when: perhaps\n"),
          "p.yaml:5:11: error[E-WHEN]: expected true, false, a comparison or properties, found 'perhaps'\n"
          "      when: perhaps\n"
@@ -168,8 +164,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "      ^~~~~~~~\n"
          "  hint: begin with load: FILE"},
         {stages("  - test-write: o.glb\n  - branch:\n      far: [test-write: ./O.glb]\n"),
-         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are one file where case does not "
-         "count\n"
+         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are the same file if case is ignored\n"
          "        far: [test-write: ./O.glb]\n"
          "                          ^~~~~~~\n"
          "  hint: the first is at p.yaml:4:17"},
@@ -230,7 +225,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
 TEST_CASE("a mesh in the place of a pipeline is told from one", "[pipeline]") {
     for (const std::string text : {"solid a\nfacet normal 0 0 1\n", "glTF\x02"})
         CHECK(planned(text, {}, "a.stl")
-                  .problems.ends_with("hint: is this a mesh? facetmill info a.stl tells what it holds, "
+                  .problems.ends_with("hint: is this a mesh? facetmill info a.stl shows its contents, "
                                       "facetmill pipe load a.stl ! ... works on it"));
 }
 
@@ -363,10 +358,9 @@ TEST_CASE("what a parameter is compared with is read by its type", "[pipeline]")
     const std::string choice = "q: {type: choice, choices: [low, high], default: low}";
     CHECK(when(choice, "${q} == low") == "true");
     CHECK(when(choice, "high != ${q}") == "true");
-    CHECK(when(choice, "${q} == lo") == "error[E-CHOICE]: 'q' is one of low, high, found 'lo'\n"
-                                        "      when: \"${q} == lo\"\n"
-                                        "                     ^~\n"
-                                        "  hint: did you mean 'low'?");
+    CHECK(when(choice, "${q} == lo") ==
+          "error[E-CHOICE]: 'q' must be one of low, high, found 'lo'\n      when: \"${q} == lo\"\n           "
+          "          ^~\n  hint: did you mean 'low'?");
     CHECK(when("n: {type: integer, default: 3}", "${n} == three").find("error[E-TYPE]") == 0);
     for (const char* other : {"${n} => 2", "${n} =< 2"})
         CHECK(when("n: {type: integer, default: 3}", other)
@@ -542,6 +536,26 @@ TEST_CASE("limits that a param's type does not have, or that nothing meets, are 
     CHECK(problem("{type: integer, min: 2, max: 5, default: 3}") == "");
 }
 
+TEST_CASE("limits of written files need a write before them", "[pipeline]") {
+    const auto problem = [](const std::string& stages) {
+        const std::string all = planned("facetmill: 1\nstages:\n  - load: a.ply\n" + stages).problems;
+        return all.substr(0, all.find('\n'));
+    };
+    const std::string check = "  - validate: {closed: true, limits: {bytes: 1kB}}\n",
+                      refusal =
+                          "error[E-LIMITS]: validate: 'limits.bytes' limits written files, and no file is "
+                          "written before it";
+    CHECK(problem(check) == "p.yaml:4:46: " + refusal);
+    CHECK(problem("  - write: b.ply\n" + check) == "");
+    CHECK(problem("  - validate: {limits: {parts: 1}}\n") == "");
+    CHECK(problem("  - write: b.ply\n    when: false\n" + check) == "p.yaml:6:46: " + refusal);
+    CHECK(problem("  - branch: {near: [{write: b.ply}], far: [{simplify: 10%}]}\n" + check) == "");
+    CHECK(problem("  - branch: {near: [{write: b.ply}], far: [{validate: {limits: {bytes: 1kB}}}]}\n")
+              .find(refusal) != std::string::npos);
+    CHECK(problem("  - foreach: {lod: [50%]}\n    do: [{simplify: \"${lod}\"}, {write: b.ply}, {validate: "
+                  "{limits: {draw_calls: 1}}}]\n") == "");
+}
+
 TEST_CASE("items and keys that say nothing are refused with their place", "[pipeline]") {
     CHECK(planned("facetmill: 1\nstages:\n  - test-load: a.ply\n  -\n")
               .problems.find("p.yaml:4:3: error[E-TYPE]") == 0);
@@ -644,7 +658,7 @@ TEST_CASE("each value of a list has a type, and its own place in messages", "[pi
           "  params: {lods: {type: list, of: integer, default: [5, x]}}\n"
           "                                                        ^");
     CHECK(problem("{type: list, of: choice, choices: [5, 3], default: [5]}", defining("5,4"))
-              .find("E-CHOICE]: 'lods' is one of 5, 3, found '4'") != std::string::npos);
+              .find("E-CHOICE]: 'lods' must be one of 5, 3, found '4'") != std::string::npos);
     CHECK(problem("{type: integer, of: ratio, default: 5}").find("E-PARAM") != std::string::npos);
     CHECK(problem("{type: list, of: text, default: 5}").find("expected an integer, found the text \"5\"") !=
           std::string::npos);
@@ -669,5 +683,5 @@ TEST_CASE("a list is not compared, and stands in no text", "[pipeline]") {
     const std::string compared = with("  - test-cut: 3\n    when: ${a} == 1\n");
     CHECK(compared.find("E-WHEN]: 'a' is a list, which is not compared") != std::string::npos);
     CHECK(compared.find("error[", compared.find("error[") + 1) == std::string::npos);
-    CHECK(with("  - test-write: \"${a}.ply\"\n").find("cannot stand inside a text") != std::string::npos);
+    CHECK(with("  - test-write: \"${a}.ply\"\n").find("cannot be used inside a text") != std::string::npos);
 }

@@ -24,12 +24,12 @@ TEST_CASE("what speaks against an assertion, in words", "[report]") {
     const EvidenceEntry place{
         .of = Of::part, .name = "a", .at = Vec3{1, 2.5, 3}, .face = 7, .with = 9, .attribute = "NORMAL"};
     using Places = report::CheckEvidence;
-    CHECK(in_words(Places{place}) == "first face 7 and 9 of 'a' at 1 2.5 3 in NORMAL");
-    CHECK(in_words(Places{place}, 12).starts_with("12 locations, the first face 7"));
-    CHECK(in_words(Places{place}, 1).starts_with("1 location, the first face 7"));
-    CHECK(in_words(Places{place}, 12, 2).starts_with("12 locations, 2 new, the first face 7"));
-    CHECK(in_words(Places{place}, {}, 2).starts_with("2 new, the first face 7"));
-    CHECK(in_words(Places{place}, 12, 0).starts_with("12 locations, the first face 7"));
+    CHECK(in_words(Places{place}) == "first: face 7 and 9 of 'a' at 1 2.5 3 in NORMAL");
+    CHECK(in_words(Places{place}, 12).starts_with("12 locations, first: face 7"));
+    CHECK(in_words(Places{place}, 1).starts_with("1 location, first: face 7"));
+    CHECK(in_words(Places{place}, 12, 2).starts_with("12 locations, 2 new, first: face 7"));
+    CHECK(in_words(Places{place}, {}, 2).starts_with("2 new, first: face 7"));
+    CHECK(in_words(Places{place}, 12, 0).starts_with("12 locations, first: face 7"));
     CHECK(in_words({}) == "");
     CHECK(in_words(Places{}) == "");
 }

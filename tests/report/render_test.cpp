@@ -169,9 +169,9 @@ TEST_CASE("the text for people", "[report]") {
           "            hint: close it\n"
           "  relax     skipped\n"
           "checks: 1 passed, 1 known, 2 failed\n"
-          "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"
+          "  failed euler (validate, part cube): expected 2, found 0; first: face 3 of 'cube' at 1 2.5 3\n"
           "  warned area (validate): expected at most 5, found 6\n"
-          "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face "
+          "  known oriented (validate, part cube): expected true, found false; 12 locations, first: face "
           "4 of 'cube' at 0 0 1\n"
           "wrote b.glb (56.8 kB)\n"
           "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
@@ -209,7 +209,7 @@ TEST_CASE("a terminal is not told again of what was told as it arose", "[report]
           "              1 cap & no more\n"
           "  relax     skipped\n"
           "checks: 1 passed, 1 known, 2 failed\n"
-          "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face "
+          "  known oriented (validate, part cube): expected true, found false; 12 locations, first: face "
           "4 of 'cube' at 0 0 1\n"
           "wrote b.glb (56.8 kB)\n"
           "report out/r.json\n"
@@ -250,7 +250,7 @@ TEST_CASE("of the lines of a stage one alone is not left out", "[report]") {
     const std::string text = to_terminal(record, false).text();
     CHECK(text.find("line 20.\n") != std::string::npos);
     CHECK(text.find("line 21.") == std::string::npos);
-    CHECK(text.find("and 2 more lines, which --report run.txt has\n") != std::string::npos);
+    CHECK(text.find("and 2 more lines (--report run.txt lists all)\n") != std::string::npos);
 }
 
 TEST_CASE("numbers below a chart do not run into each other", "[report]") {
@@ -275,15 +275,15 @@ TEST_CASE("JUnit: checks and errors are cases", "[report]") {
                                      "  <testsuite name=\"p.yaml\" tests=\"5\" failures=\"1\" errors=\"1\">\n"
                                      "    <testcase classname=\"validate\" name=\"closed\"/>\n"
                                      "    <testcase classname=\"validate\" name=\"euler [cube]\">\n"
-                                     "      <failure message=\"expected 2, found 0; first face 3 of "
+                                     "      <failure message=\"expected 2, found 0; first: face 3 of "
                                      "&#39;cube&#39; at 1 2.5 3\">p.yaml</failure>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"validate\" name=\"area\">\n"
                                      "      <system-out>warning: expected at most 5, found 6</system-out>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"validate\" name=\"oriented [cube]\">\n"
-                                     "      <system-out>known: expected true, found false; 12 locations, the "
-                                     "first face 4 of &#39;cube&#39; at 0 0 1</system-out>\n"
+                                     "      <system-out>known: expected true, found false; 12 locations, "
+                                     "first: face 4 of &#39;cube&#39; at 0 0 1</system-out>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"run\" name=\"E-WRITE\">\n"
                                      "      <error message=\"the disk is full\"></error>\n"
@@ -296,21 +296,21 @@ TEST_CASE("Markdown for the description of a change", "[report]") {
     CHECK(to_markdown(full_record()) ==
           "## p.yaml\n\nMills &lt;cubes&gt; &amp; more\n\n"
           "**failed with exit code 4**, 2 of 4 checks passed\n\n"
-          "### At a glance\n\n|  | inputs | outputs | share |\n| --- | --- | --- | --- |\n"
+          "### At a glance\n\n|  | inputs | outputs | ratio |\n| --- | --- | --- | --- |\n"
           "| faces | 12 | 12 | 100 % |\n| bytes | 1.2 kB | 56.8 kB | 4,600 % |\n\n"
           "### Errors and warnings\n\n"
           "| kind | id | message | hint |\n| --- | --- | --- | --- |\n"
           "| error | E-WRITE | the disk is full | make room |\n"
           "| warning | W-CAP | one loop stays open | close it |\n\n"
-          "### Checks that did not hold\n\n"
+          "### Failed checks\n\n"
           "| outcome | property | expected | found | locations | hint |\n"
           "| --- | --- | --- | --- | --- | --- |\n"
-          "| failed | euler | 2 | 0 | first face 3 of &#39;cube&#39; at 1 2.5 3 "
+          "| failed | euler | 2 | 0 | first: face 3 of &#39;cube&#39; at 1 2.5 3 "
           "| clean fills holes |\n"
           "| warned | area | at most 5 | 6 |  |  |\n"
-          "| known | oriented | true | false | 12 locations, the first face 4 of "
+          "| known | oriented | true | false | 12 locations, first: face 4 of "
           "&#39;cube&#39; at 0 0 1 |  |\n\n"
-          "### Stages\n\n| stage | faces before | after | what it did |\n"
+          "### Stages\n\n| stage | faces before | faces after | notes |\n"
           "| --- | --- | --- | --- |\n"
           "| cut | 1,200 | 12 | 1 cap &amp; no more |\n"
           "| relax |  |  | skipped |\n\n"
@@ -358,7 +358,7 @@ TEST_CASE("pictures that one camera took are compared by a slider", "[report]") 
     const std::string html = to_html(record);
     CHECK(html.find("data-of=\"picture-0\"") != std::string::npos);
     CHECK(html.find("data-of=\"picture-1\"") == std::string::npos);
-    CHECK(html.find("clip: 0 faces; left of the slider before (load)") != std::string::npos);
+    CHECK(html.find("clip: 0 faces; left of the slider: after load") != std::string::npos);
 }
 
 TEST_CASE("a check that did not hold has its picture, its places and commands", "[report]") {
@@ -373,16 +373,16 @@ TEST_CASE("a check that did not hold has its picture, its places and commands", 
     check.evidence = CheckEvidence{{.of = EvidenceEntry::Of::part, .name = "a", .at = Vec3{1, 2.5, -3}},
                                    {.of = EvidenceEntry::Of::part, .name = "b", .amount = 2}};
     CHECK(failing_locations(check).empty());
-    CHECK(to_html(record).find("did not hold") == std::string::npos);
+    CHECK(to_html(record).find("Failed checks") == std::string::npos);
     check.passed = false;
     CHECK(failing_locations(check) == std::vector<Vec3>{{1, 2.5, -3}});
-    CHECK(to_html(record).find("may help") == std::string::npos); // nothing is said to help
+    CHECK(to_html(record).find("<dt>try</dt>") == std::string::npos); // there is no hint
     check.hint = "clean fills holes";
-    CHECK(to_html(record).find("does not hold: all places") != std::string::npos);
+    CHECK(to_html(record).find("all locations where &#39;closed&#39; fails") != std::string::npos);
     check.locations = 1234;
     const std::string html = to_html(record);
-    CHECK(html.find("where &#39;closed&#39; does not hold: the first 1 of 1,234 places") !=
-          std::string::npos);
+    CHECK(html.find("<dt>try</dt>") != std::string::npos);
+    CHECK(html.find("the first 1 of 1,234 locations where &#39;closed&#39; fails") != std::string::npos);
     CHECK(html.find("<li>and 1,232 more</li>") != std::string::npos);
     CHECK(html.find(
               "facetmill pipe load &#39;a b.ply&#39; ! clean --holes minimal ! orient ! validate --closed "
@@ -391,21 +391,27 @@ TEST_CASE("a check that did not hold has its picture, its places and commands", 
     CHECK(html.find("<li>part &#39;b&#39; 2</li>") != std::string::npos);
 }
 
-TEST_CASE("the margin of a check is what is left of its limit, or missing", "[report]") {
+TEST_CASE("the margin of a check says on which side of the limit the value is", "[report]") {
     Check check{.found = std::int64_t{3}, .max = 5};
-    CHECK(margin_text(check) == "2 to spare (40 % of the limit)");
+    CHECK(margin_text(check) == "2 below the limit (by 40 %)");
     check.found = std::int64_t{9};
-    CHECK(margin_text(check) == "4 too many (80 % of the limit)");
+    CHECK(margin_text(check) == "4 too many (80 % above the limit)");
     check.found = std::int64_t{1234567};
-    CHECK(margin_text(check).starts_with("1,234,562 too many"));
+    CHECK(margin_text(check) == "1,234,562 too many"); // a percentage beyond 999 is left out
     check.found = std::int64_t{9};
     check.min = check.max = 10;
-    CHECK(margin_text(check) == "1 too few (10 % of the limit)");
+    CHECK(margin_text(check) == "1 too few (10 % below the limit)");
     check.found = 0.5;
-    CHECK(margin_text(check) == "9.5 too little (95 % of the limit)");
+    CHECK(margin_text(check) == "9.5 too little (95 % below the limit)");
     check.max = 0.25;
     check.min = {};
-    CHECK(margin_text(check) == "0.25 too much (100 % of the limit)");
+    CHECK(margin_text(check) == "0.25 too much (100 % above the limit)");
+    check.found = 0.25;
+    CHECK(margin_text(check) == "exactly at the limit");
+    check = {.found = std::int64_t{3624}, .min = 1};
+    CHECK(margin_text(check) == "3,623 above the limit");
+    check.max = 3634;
+    CHECK(margin_text(check).starts_with("10 below the limit (by "));
     check.found = true;
     CHECK(margin_text(check).empty());
 }

@@ -34,6 +34,19 @@ TEST_CASE("a view has a scene before and those after it, each once", "[report]")
     CHECK(json["left_out"] == "");
 }
 
+TEST_CASE("a view shows a file with its own up axis if the scene has none", "[report]") {
+    Mesh tower = shapes::icosphere(1);
+    for (Vec3& p : tower.positions) p.z *= 3;
+    const Scene scene = scene_of(std::move(tower));
+    ViewedScenes viewed(2);
+    viewed.add_before(scene, "a.obj", nullptr);
+    viewed.add_after(scene, "a.glb", nullptr, {.file_up = UpAxis::y});
+    const Json json = viewed.json();
+    REQUIRE(json["scenes"].size() == 2);
+    CHECK(json["scenes"][0]["up"] == Json({0.0, 0.0, 1.0}));
+    CHECK(json["scenes"][1]["up"] == Json({0.0, 1.0, 0.0}));
+}
+
 TEST_CASE("a scene that was moved or made larger is another one to a view", "[report]") {
     const Scene ball = scene_of(shapes::icosphere(1));
     ViewedScenes viewed(4);

@@ -48,13 +48,13 @@ Value numbers(std::initializer_list<const char*> texts) {
 
 TEST_CASE("assertions name a property and a bound of its kind", "[stage]") {
     CHECK(limits_complaint(entry("closd", Value::scalar("true"))) ==
-          "E-KEY ensure knows no property 'closd' (did you mean 'closed'?)");
+          "E-KEY ensure has no property 'closd' (did you mean 'closed'?)");
     CHECK(limits_complaint(entry("closed", Value::scalar("3"))) ==
           "E-TYPE 'closed' is true or false, found '3'");
     CHECK(limits_complaint(entry("faces", Value::scalar("true"))) ==
           "E-TYPE 'faces' is a number (2) or a range ({min: 1, max: 5}), found 'true'");
     CHECK(limits_complaint(Value::scalar("closed")) ==
-          "E-TYPE ensure takes a map of properties ({closed: true}), found 'closed'");
+          "E-TYPE ensure needs a map of properties ({closed: true}), found 'closed'");
 }
 
 TEST_CASE("a bound holds or says what was expected and found", "[stage]") {
@@ -146,8 +146,9 @@ TEST_CASE("unit, up, parts and materials are asserted like the rest", "[stage]")
     CHECK(judged_limits(entry("up", Value::scalar("z")), p).passed);
     CHECK(judged_limits(entry("parts", Value::scalar("2")), p).passed);
     CHECK(judged_limits(entry("materials", entry("max", Value::scalar("0"))), p).passed);
-    CHECK(limits_complaint(entry("unit", Value::scalar("mn"))) ==
-          "E-CHOICE 'unit' is one of unknown, um, mm, cm, m, km, in, ft, found 'mn' (did you mean 'mm'?)");
+    CHECK(
+        limits_complaint(entry("unit", Value::scalar("mn"))) ==
+        "E-CHOICE 'unit' must be one of unknown, um, mm, cm, m, km, in, ft, found 'mn' (did you mean 'mm'?)");
 }
 
 TEST_CASE("assertions are spelled as they can be written", "[stage]") {

@@ -8,7 +8,7 @@ TEST_CASE("stages are found by what other programs call them", "[stage]") {
     CHECK(hint_for_stage("Decimate", stage_names()) ==
           "'Decimate' is done by simplify here: facetmill stages simplify");
     CHECK(hint_for_stage("simplfy", stage_names()) == "did you mean 'simplify'?");
-    CHECK(hint_for_stage("qqqqq", stage_names()) == "facetmill stages lists them all");
+    CHECK(hint_for_stage("qqqqq", stage_names()) == "facetmill stages lists all stages");
     for (const char* word : {"weld", "smooth", "boolean", "subdivide", "hollow", "decimate"}) {
         INFO(word);
         CHECK(stage_called(word) != nullptr);
@@ -17,7 +17,7 @@ TEST_CASE("stages are found by what other programs call them", "[stage]") {
     // Operations that combine several stages.
     for (const char* word : {"remesh", "Remeshing", "isotropic-remeshing"})
         CHECK(hint_for_stage(word, stage_names()) ==
-              "edges of about one length come of three stages: split: {max_edge: 2%}, simplify: {ratio: 40%, "
+              "three stages make edges of similar length: split: {max_edge: 2%}, simplify: {ratio: 40%, "
               "method: shortest-edge}, relax: {iterations: 3, method: taubin}");
     CHECK(chain_called("simplify").empty());
 }

@@ -58,7 +58,7 @@ Scene sheet() { return scene_of(shapes::grid(5, 1)); }
 TEST_CASE("a stage that leaves no face says so, unless it has said so itself", "[stage]") {
     for (const MayLose may : {MayLose::tenth, MayLose::half, MayLose::area})
         CHECK(warned(may, sheet(), leaving(0)) ==
-              "'eat' lost surface of part 'part': none of its 10 faces is left");
+              "'eat' lost surface of part 'part': it lost all of its 10 faces");
     CHECK(warned(MayLose::all, sheet(), leaving(0)) == "");
     CHECK(warned(MayLose::tenth, scene_of(Mesh{}), leaving(0)) == "");
 }
@@ -66,7 +66,7 @@ TEST_CASE("a stage that leaves no face says so, unless it has said so itself", "
 TEST_CASE("a stage that takes more of the area than it may says how much", "[stage]") {
     CHECK(warned(MayLose::tenth, sheet(), leaving(9)) == "");
     CHECK(warned(MayLose::tenth, sheet(), leaving(8))
-              .starts_with("'eat' lost surface of part 'part': 20 % of its area is gone, "));
+              .starts_with("'eat' lost surface of part 'part': it lost 20 % of its area, "));
     CHECK(warned(MayLose::half, sheet(), leaving(5)) == "");
     CHECK(warned(MayLose::half, sheet(), leaving(4)).find("60 %") != std::string::npos);
     CHECK(warned(MayLose::area, sheet(), leaving(1)) == "");
@@ -77,16 +77,17 @@ TEST_CASE("surface is missed in every part, and in the scene when the parts are 
     two.parts.push_back(two.parts[0]);
     two.parts[1].name = "other";
     CHECK(warned(MayLose::tenth, two, leaving(0)) ==
-          "'eat' lost surface of part 'part': none of its 10 faces is left");
+          "'eat' lost surface of part 'part': it lost all of its 10 faces");
     const auto first_only = [](Scene scene) {
         scene.parts.pop_back();
         return scene;
     };
-    CHECK(warned(MayLose::tenth, two, first_only).starts_with("'eat' lost surface of the scene: 50 %"));
+    CHECK(
+        warned(MayLose::tenth, two, first_only).starts_with("'eat' lost surface of the scene: it lost 50 %"));
     CHECK(warned(MayLose::half, two, first_only) == "");
     const auto nothing = [](Scene) { return Scene{}; };
     CHECK(warned(MayLose::half, two, nothing) ==
-          "'eat' lost surface of the scene: none of its 20 faces is left");
+          "'eat' lost surface of the scene: it lost all of its 20 faces");
 }
 
 TEST_CASE("what one stage leaves of the surface is what the next one finds", "[stage]") {

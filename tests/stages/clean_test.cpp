@@ -1,4 +1,6 @@
 #include "support/catch.hpp"
+
+#include "geometry/intersect/self_intersections.hpp"
 #include "support/failure.hpp"
 
 #include "geometry/inspect/inspect.hpp"
@@ -110,11 +112,31 @@ TEST_CASE("clean refuses options that make no sense together", "[stages]") {
         return failure([&] { run_stage("clean", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{weld: near}") ==
-          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | tolerance: 0.01% (or 0.1mm)");
-    CHECK(refusal("{tolerance: 1}") ==
-          "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to "
-          "near | set weld, stitch or t_junctions to near");
+          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | give it: tolerance: 0.01%");
+    CHECK(
+        refusal("{tolerance: 1}") ==
+        "usage [E-CONFLICT] test.yaml:1:13: clean: 'tolerance' has no effect, because no step is set to near "
+        "| weld: near, stitch: near or t_junctions: near");
     CHECK(refusal("{components: {}}") ==
           "usage [E-MISSING] test.yaml:1:1: clean: components needs a limit for small components | "
           "components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
+}
+
+TEST_CASE("clean resolves the intersections that rounding to single makes", "[stages]") {
+    Mesh ball = shapes::icosphere(3), inner = shapes::icosphere(3);
+    for (Vec3& p : inner.positions) p = p * (1 - 3e-7);
+    for (std::size_t c = 0; c < inner.corners.size(); c += 3)
+        std::swap(inner.corners[c], inner.corners[c + 1]);
+    append(ball, inner);
+    for (Vec3& p : ball.positions) p = p * 10.0 + Vec3{100.123, 200.4567, 50.7891};
+    REQUIRE(find_self_intersections(ball).count == 0);
+    const auto run = run_stage("clean", "{precision: single}", scene_of(ball));
+    CHECK(find_self_intersections(run.mesh()).count == 0);
+    Mesh crossing = shapes::cube(); // intersects already: what rounding adds is reported
+    for (Vec3& p : crossing.positions) p = p * 30.0 + Vec3{90, 195, 45};
+    append(ball, crossing);
+    const auto other = run_stage("clean", "{precision: single}", scene_of(ball));
+    const auto before = find_self_intersections(ball).count,
+               after = find_self_intersections(other.mesh()).count;
+    if (after > before) CHECK(other.warnings() == std::vector<std::string>{"W-CLEAN"});
 }

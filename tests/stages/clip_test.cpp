@@ -1,3 +1,4 @@
+#include "base/math/numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -230,14 +231,15 @@ TEST_CASE("clip says when everything or nothing stays, and names open contours",
 }
 
 TEST_CASE("clip refuses what is no plane", "[stages]") {
-    CHECK(
-        clip_refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
-        "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
-    CHECK(
-        clip_refusal(numbers({"0", "0", "0", "1"})) ==
-        "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
+    CHECK(clip_refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
+          "usage [E-PLANE] the plane's normal is zero, so it has no direction | give a direction: plane: "
+          "{normal: [0, 0, 1]}");
+    CHECK(clip_refusal(numbers({"0", "0", "0", "1"})) ==
+          "usage [E-PLANE] the plane's normal is zero, so it has no direction | give a direction: plane: "
+          "{normal: [0, 0, 1]}");
     CHECK(clip_refusal(map({{"plane", map({{"through", text("centre")}})}})) ==
-          "usage [E-PLANE] a plane needs a normal or coefficients | for example normal: [0, 0, 1]");
+          "usage [E-PLANE] a plane needs a normal or coefficients | give a direction: plane: {normal: [0, 0, "
+          "1]}");
     CHECK(clip_refusal(text("w=3")) ==
           "usage [E-TYPE] expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, "
           "[A, B, C, D]), found 'w=3'");
@@ -249,8 +251,9 @@ TEST_CASE("clip refuses what is no plane", "[stages]") {
         " | for example {min: [0, 0, 0], max: [1, 1, 1]} or {centre: [0, 0, 0], size: [1, 1, 1]}";
     CHECK(clip_refusal(map({{"box", map({{"min", numbers({"0", "0", "0"})}})}})) ==
           std::string("usage [E-BOX] a box needs min and max, or centre and size") + hint);
-    CHECK(clip_refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
-          "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min in all three");
+    CHECK(
+        clip_refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
+        "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min along all three axes");
     CHECK(clip_refusal(map({{"box", text("1,2")}}))
               .starts_with("usage [E-TYPE] expected a box ({min: [0, 0, 0]"));
 }
@@ -263,11 +266,9 @@ TEST_CASE("split takes a method or a grid", "[stages]") {
     CHECK(faces(text("centroid")) == 36);
     CHECK(faces(map({{"grid", text("3")}})) == 108);
     CHECK(faces(map({{"method", text("midpoint")}, {"passes", text("2")}})) == 192);
-    CHECK(
-        test::failure([&] {
-            faces(map({{"method", text("bisect")}, {"grid", text("3")}}));
-        }) ==
-        "usage [E-CONFLICT] split: 'grid' goes with the method grid only | leave out either method or grid");
+    CHECK(test::failure([&] {
+              faces(map({{"method", text("bisect")}, {"grid", text("3")}}));
+          }) == "usage [E-CONFLICT] split: 'grid' needs the method grid | remove either method or grid");
     CHECK(test::failure([&] { faces(text("grid")); }) ==
           "usage [E-MISSING] split: the method grid needs 'grid', the number of segments per edge | for "
           "example split: {grid: 3}");
@@ -275,7 +276,7 @@ TEST_CASE("split takes a method or a grid", "[stages]") {
 
 TEST_CASE("clip says when vertices far from the origin count as on the plane", "[stages]") {
     Mesh far_away = shapes::cube();
-    for (Vec3& p : far_away.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
+    for (Vec3& p : far_away.positions) p = as_float32(p * 10.3 + Vec3{450000, 5400000, 0}); // y: 5400010.5
     const auto warned = [](const Mesh& mesh, const std::string& options) {
         const auto ids = test::run_stage("clip", options, test::scene_of(mesh)).warnings();
         return std::count(ids.begin(), ids.end(), "W-SNAPPED");

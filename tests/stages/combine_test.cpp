@@ -53,7 +53,7 @@ TEST_CASE("combine takes parts away, and removes them from the scene", "[stages]
     CHECK(numbered == run.record.result["parts"][0]["faces_of_with"]);
     CHECK(numbered >= 6);
     REQUIRE(run.warnings() == std::vector<std::string>{"W-COMBINE-IDLE"});
-    CHECK(run.record.warnings[0].message == "combine: 'far drill' takes nothing away");
+    CHECK(run.record.warnings[0].message == "combine: 'far drill' subtracts nothing");
     // New numbers continue after existing numbers.
     Scene again = cube_and_drills();
     again.parts[0].mesh = run.mesh();
@@ -150,8 +150,8 @@ TEST_CASE("combine refuses what cannot be combined, by name", "[stages]") {
     CHECK(says(failure("{operation: difference, with: \"*\"}", scene), "E-PART"));
     Scene open = scene;
     open.parts[1].mesh = shapes::grid(2, 2);
-    CHECK(
-        says(failure("{operation: difference, with: drill}", open), "part 'drill' is no solid: it is open"));
+    CHECK(says(failure("{operation: difference, with: drill}", open),
+               "part 'drill' is not a solid: it is open"));
     Scene empty = scene;
     empty.parts[1].mesh = {};
     CHECK(says(failure("{operation: difference, with: drill}", empty), "part 'drill' has no faces"));

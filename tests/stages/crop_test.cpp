@@ -1,3 +1,4 @@
+#include "base/math/numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -175,9 +176,9 @@ TEST_CASE("crop refuses footprints before it runs", "[stages]") {
 
 TEST_CASE("crop says when vertices far from the origin count as on the outline", "[stages]") {
     const std::string outline =
-        "[[449990, 5399990], [450010.7, 5399990], [450010.7, 5400030], [449990, 5400030]]";
+        "[[449990, 5399990], [450030, 5399990], [450030, 5400010.3], [449990, 5400010.3]]";
     Mesh far_away = shapes::cube();
-    for (Vec3& p : far_away.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
+    for (Vec3& p : far_away.positions) p = as_float32(p * 10.3 + Vec3{450000, 5400000, 0}); // y: 5400010.5
     const auto warned = [&](const Mesh& mesh, const std::string& options) {
         const auto ids = run_stage("crop", options, scene_of(mesh)).warnings();
         return std::count(ids.begin(), ids.end(), "W-SNAPPED");

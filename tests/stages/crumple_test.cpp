@@ -160,7 +160,7 @@ TEST_CASE("crumple: octaves go with a frequency, and refusals speak of crumple",
     for (const char* name : {"octaves", "roughness"})
         CHECK(problems_of("crumple", options({{name, "1"}})) ==
               std::string("E-CONFLICT crumple: '") + name +
-                  "' goes with a frequency above 0 only | for example frequency: 4, or leave it out");
+                  "' needs a frequency above 0 | for example frequency: 4, or remove it");
     CHECK(problems_of("crumple", options({{"octaves", "2"}, {"frequency", "3"}})) == "");
     const std::string giant = test::failure([] {
         run_stage("crumple", options({{"grid", "10000"}}), scene_of(shapes::icosphere(2)));
@@ -215,7 +215,7 @@ TEST_CASE("a mask that selects nothing is warned of", "[stages]") {
         const auto r = run_stage(stage, o, scene_of(shapes::icosphere(1)));
         REQUIRE(r.warnings() == std::vector<std::string>{"W-MASK"});
         CHECK(r.record.warnings[0].message ==
-              std::string(stage) + ": the mask selects none of 42 vertices: nothing moves");
+              std::string(stage) + ": the mask selects none of 42 vertices, so nothing moves");
         CHECK(r.mesh().positions == shapes::icosphere(1).positions);
     }
 }

@@ -43,11 +43,10 @@ TEST_CASE("generate: a percentage of noise is of the shape itself", "[stages]") 
 
 TEST_CASE("generate: options of other shapes are refused", "[stages]") {
     CHECK(problems_of("generate", options({{"shape", "cube"}, {"subdivisions", "2"}})) ==
-          "E-CONFLICT generate: 'subdivisions' goes with icosphere, menger, not with cube | leave it out");
-    CHECK(
-        problems_of("generate", options({{"shape", "sphere"}, {"faces", "100"}, {"segments", "9"}})) ==
-        "E-CONFLICT generate: 'faces' stands for 'segments' and 'rings' | give either faces, or segments and "
-        "rings");
+          "E-CONFLICT generate: 'subdivisions' applies to icosphere, menger, not to cube | remove it");
+    CHECK(problems_of("generate", options({{"shape", "sphere"}, {"faces", "100"}, {"segments", "9"}})) ==
+          "E-CONFLICT generate: 'faces' replaces 'segments' and 'rings' | give either faces, or segments and "
+          "rings");
     CHECK(problems_of("generate", options({{"shape", "menger"}, {"subdivisions", "5"}})) ==
           "E-RANGE 'subdivisions' of menger must be 1 <= x <= 4, not 5");
     CHECK(problems_of("generate", {}).substr(0, 9) == "E-MISSING");
@@ -55,7 +54,7 @@ TEST_CASE("generate: options of other shapes are refused", "[stages]") {
 
 TEST_CASE("generate: what cannot be a shape is refused before it is made", "[stages]") {
     CHECK(problems_of("generate", options({{"shape", "torus"}, {"minor_radius", "1"}})) ==
-          "E-RANGE generate: minor_radius must be below the radius, which is 1 unless given, not 1 | use a "
+          "E-RANGE generate: minor_radius must be below the radius, which defaults to 1, not 1 | use a "
           "smaller minor_radius or a larger radius");
     CHECK(
         problems_of("generate", options({{"shape", "torus"}, {"minor_radius", "3mm"}, {"radius", "2mm"}})) ==

@@ -88,7 +88,7 @@ TEST_CASE("a face alone tells the cases of a segment and a facet", "[stages]") {
           Json({{"hit", 1}, {"outside facet", 1}, {"parallel", 1}, {"outside segment", 1}, {"in plane", 1}}));
     CHECK(r["answers"][0]["plane"]["t"] == 0.5);
     CHECK(probe_refusal("{face: 6, rays: [0, 0, 0, 1, 0, 0]}", scene_of(shapes::quad_cube())) ==
-          "E-FACE there is no face 6; the last one is 5");
+          "E-FACE face 6 does not exist; the last face is 5");
 }
 
 TEST_CASE("rays along an attribute measure walls", "[stages]") {
@@ -168,14 +168,13 @@ TEST_CASE("probe refuses what it cannot use", "[stages]") {
           "E-MISSING probe: one of points, points_of, segments, rays, along is needed");
     CHECK(probe_refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
     CHECK(probe_refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
-    CHECK(probe_refusal("{points: [0, 0, 0], face: 1}") ==
-          "E-CONFLICT probe: 'face' goes with segments or rays");
+    CHECK(probe_refusal("{points: [0, 0, 0], face: 1}") == "E-CONFLICT probe: 'face' needs segments or rays");
     CHECK(probe_refusal("{points: [0, 0, 0], path: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
-    CHECK(probe_refusal("{points: [0, 0, 0], reverse: true}") ==
-          "E-CONFLICT probe: 'reverse' goes with along");
+    CHECK(probe_refusal("{points: [0, 0, 0], reverse: true}") == "E-CONFLICT probe: 'reverse' needs along");
     CHECK(probe_refusal("{points: [0, 0, 0], hits: first}") ==
-          "E-CONFLICT probe: 'hits' goes with segments or rays");
-    CHECK(probe_refusal("{points_of: part}") == "E-PART 'points_of' leaves no part as the surface");
+          "E-CONFLICT probe: 'hits' needs segments or rays");
+    CHECK(probe_refusal("{points_of: part}") ==
+          "E-PART 'points_of' selects all parts, so no part is left as the surface");
     CHECK(probe_refusal("none.csv").starts_with("E-FILE"));
 }
 

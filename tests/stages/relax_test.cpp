@@ -74,7 +74,7 @@ TEST_CASE("relax: area and volume before and after; options that go with methods
     CHECK(problems_of("relax", options({{"method", "taubin"}, {"lambda", "0.9"}})).substr(0, 8) ==
           "E-RANGE ");
     CHECK(problems_of("relax", options({{"pass_band", "0.2"}})) ==
-          "E-CONFLICT relax: 'pass_band' goes with the method taubin only");
+          "E-CONFLICT relax: 'pass_band' needs the method taubin");
 }
 
 TEST_CASE("relax: caps of cuts stay planar unless they are free", "[stages]") {

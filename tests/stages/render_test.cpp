@@ -70,7 +70,7 @@ TEST_CASE("another file of a hundred times the size, in an unknown unit, is told
         std::string all;
         for (const auto& w : run.record.warnings)
             if (w.id == "W-UNITS")
-                all += w.message.substr(w.message.find("is ")) + " | " + w.hint.substr(0, 23);
+                all += w.message.substr(w.message.find("is ")) + " | " + w.hint.substr(4, 23);
         return all;
     };
     CHECK(warned(1000, Unit::unknown, Unit::unknown) ==
@@ -126,7 +126,7 @@ TEST_CASE("several views make one picture", "[stages]") {
     CHECK(size("[front, left, top]") == std::pair(240, 60));
     CHECK(size("[front, left, top, turntable]") == std::pair(320, 180));
     CHECK(problems_of("render", options({{"path", "a.png"}, {"views", "turntabel"}})) ==
-          "E-CHOICE render: there is no view 'turntabel' | did you mean 'turntable'?");
+          "E-CHOICE render: view 'turntabel' does not exist | did you mean 'turntable'?");
     CHECK(problems_of(
               "render",
               options({{"path", "a.png"}, {"views", "turntable"}, {"width", "8000"}, {"height", "8000"}}))
@@ -260,7 +260,7 @@ TEST_CASE("what can be neither drawn nor measured is told with what can", "[stag
     CHECK(said("attribute: warmth").find("no part has an attribute 'warmth'") != std::string::npos);
     CHECK(said("attribute: warmth").find("the scene has ") != std::string::npos);
     CHECK(said("attribute: warmth").find("NORMAL") != std::string::npos);
-    CHECK(said("attribute: warmth").find("; measured are min_angle, ") != std::string::npos);
+    CHECK(said("attribute: warmth").find("; render can measure min_angle, ") != std::string::npos);
     CHECK(said("attribute: thicknes").find("did you mean 'thickness'?") != std::string::npos);
     CHECK(said("attribute: failed").find("validate: {mark: failed.ply}") != std::string::npos);
     CHECK(said("attribute: thickness, unit: m").find("wall_thickness is measured in mm, not in m") !=
@@ -281,7 +281,7 @@ TEST_CASE("a stray face that makes the rest small is told, and what shows it", "
     REQUIRE(run.warnings() == std::vector<std::string>{"W-FAR"});
     CHECK(run.record.warnings[0].message.ends_with(
         " pixels wide in the picture, because something lies far off"));
-    CHECK(run.record.warnings[0].hint.starts_with("render: {path: near.png, at: ["));
+    CHECK(run.record.warnings[0].hint.starts_with("use render: {path: near.png, at: ["));
     CHECK(
         run_stage("render", drawing_options(folder, "zoom: 10000, at: [0, 0, 0]"), scene).warnings().empty());
     CHECK(run_stage("render", drawing_options(folder, "view: front"), scene_of(shapes::icosphere(3)))

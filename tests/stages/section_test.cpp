@@ -96,13 +96,13 @@ TEST_CASE("an open mesh is said", "[stages]") {
     const auto run = run_stage("section", "x=0.5", scene_of(shapes::grid(2, 2)));
     REQUIRE(run.record.warnings.size() == 1);
     CHECK(run.record.warnings[0].id == "W-OPEN-SECTION");
-    CHECK(run.record.warnings[0].hint.starts_with("of a surface without an inside (a terrain, a sheet)"));
-    // Next to closed contours, an open contour means a hole.
+    CHECK(run.record.warnings[0].hint.starts_with("take the lines alone of a terrain or a sheet"));
+    // Next to closed contours, an open contour may mean a hole.
     Scene two = scene_of(shapes::cube());
     append(two.parts[0].mesh, shapes::grid(2, 2));
     const auto some = run_stage("section", "x=0.5", two);
     REQUIRE(some.record.warnings.size() == 1);
-    CHECK(some.record.warnings[0].hint == "use clean first, to weld the mesh or fill its holes");
+    CHECK(some.record.warnings[0].hint.ends_with("close the holes of a solid with clean: {holes: minimal}"));
     CHECK(run.record.result["open"] == 1);
 }
 
@@ -122,9 +122,8 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
     const auto refusal = [](const char* options) {
         return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
     };
-    CHECK(refusal("{path: a.pdf}") ==
-          "usage [E-DRAWING] test.yaml:1:8: section: drawings are not written as 'a.pdf' | the formats "
-          "are .svg, .dxf and .json");
+    CHECK(refusal("{path: a.pdf}") == "usage [E-DRAWING] test.yaml:1:8: section: 'a.pdf' is not a supported "
+                                      "drawing format | use .svg, .dxf or .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
           "usage [E-PLANE] test.yaml:1:1: the plane's normal is zero, so it has no direction | for example "
           "normal: [0, 0, 1]");

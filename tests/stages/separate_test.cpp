@@ -56,7 +56,7 @@ TEST_CASE("separate leaves cavities in their solids, unless it is told to", "[st
 TEST_CASE("separate names options without effect", "[stages]") {
     CHECK(failure([] {
               run_stage("separate", "{attribute: patch}", scene_of(shapes::cube()));
-          }).find("'attribute' goes with by: group") != std::string::npos);
+          }).find("'attribute' needs by: group") != std::string::npos);
 }
 
 TEST_CASE("parts without groups stay as they are among others", "[stages]") {
@@ -97,8 +97,6 @@ TEST_CASE("separate refuses a group that is not there, and too many parts", "[st
         soup.corners.push_back(i);
     }
     CHECK(failure([&] { run_stage("separate", "{max_parts: 2}", scene_of(soup)); }) ==
-          "stage [E-PARTS] separate: there would be 3 parts or more, and max_parts is 2 | remove small "
-          "components "
-          "first (clean: "
-          "{components: {min_faces: 10}}), or raise max_parts");
+          "stage [E-PARTS] separate: there would be at least 3 parts, but max_parts is 2 | use clean: "
+          "{components: {min_faces: 10}} first to remove small components, or raise max_parts");
 }

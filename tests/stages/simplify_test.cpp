@@ -200,8 +200,8 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
     CHECK(problems("{ratio: 10%, lock: {box: {min: [0, 0, 0], max: [0, 1, 1]}}}").find("E-BOX") !=
           std::string::npos);
     // A number that could be a ratio or a count is refused with a question.
-    CHECK(problems("1").find("write 100%, or name the option that counts (faces: 1)") != std::string::npos);
-    CHECK(problems("5000").find("a ratio has a point or a % (50%); for a count write faces: 5000") !=
+    CHECK(problems("1").find("write 100%, or name the option for a count (faces: 1)") != std::string::npos);
+    CHECK(problems("5000").find("a ratio needs a point or a % (50%); for a count write faces: 5000") !=
           std::string::npos);
     CHECK(problems("{lods: []}").find("simplify: lods: at least one ratio") != std::string::npos);
     CHECK(problems("{lods: [50%], method: constrained, max_error: 1%, lock: boundary}") ==

@@ -29,9 +29,8 @@ TEST_CASE("split: a mesh in a single point has no edges longer than a percentage
 
 TEST_CASE("split: a bare number is answered with the options that take one", "[stages]") {
     CHECK(problems_of("split", Value::scalar("2"))
-              .ends_with("catmull-clark, found '2' | a number is given by the name of its option: split: "
-                         "{grid: 2}, split: "
-                         "{passes: 2} or split: {max_faces: 2}"));
+              .ends_with("catmull-clark, found '2' | a number needs the name of its option: split: {grid: "
+                         "2}, split: {passes: 2} or split: {max_faces: 2}"));
     CHECK(problems_of("split", Value::scalar("midpiont"))
               .ends_with("found 'midpiont' | did you mean 'midpoint'?"));
 }
@@ -61,8 +60,8 @@ TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
         run_stage("split", options({{"max_edge", "10%"}, {"passes", "1"}}), scene_of(shapes::cube()));
     CHECK(r.record.result["parts"][0]["stopped_by"] == "passes");
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
-    CHECK(r.record.warnings[0].message == "part 'part' has edges of 0.7071 left, above max_edge "
-                                          "0.1732: passes (1) ended the split");
+    CHECK(r.record.warnings[0].message ==
+          "part 'part' still has edges of 0.7071, above max_edge 0.1732: passes (1) ended the split");
     const auto full = run_stage("split", options({{"max_faces", "4"}}), scene_of(shapes::cube()));
     CHECK(full.mesh().face_count() == 12);
     REQUIRE(full.warnings() == std::vector<std::string>{"W-SPLIT-NOTHING"});
@@ -82,8 +81,8 @@ TEST_CASE("split: narrow faces that are left, and faces that a method leaves, ar
     const auto r = run_stage("split", options({{"min_angle", "20"}, {"passes", "10"}}), scene_of(needle));
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
     CHECK(r.record.result["parts"][0]["stopped_by"] == "narrow");
-    CHECK(r.record.warnings.at(0).message == "part 'part' stays as it is, with 1 face with an angle below 20 "
-                                             "degrees: a pass would make more of them");
+    CHECK(r.record.warnings.at(0).message == "part 'part' stays unchanged, with 1 face with an angle below "
+                                             "20 degrees: a pass would make more of them");
     CHECK(r.record.result["parts"][0]["narrow"] == 1);
     CHECK(r.record.result["parts"][0]["narrow_before"] == 1);
     CHECK(r.mesh().face_count() == 1);

@@ -222,14 +222,14 @@ TEST_CASE("images that are read pixel by pixel stay as they are", "[stages]") {
 TEST_CASE("textures refuses options that say nothing", "[stages]") {
     ::setenv("FACETMILL_KTX", "/nowhere/ktx", 1);
     CHECK(problems_of("textures", options({{"format", "ktx2"}}))
-              .starts_with("E-KTX textures: FACETMILL_KTX names no program: '/nowhere/ktx'"));
+              .starts_with("E-KTX textures: FACETMILL_KTX does not name a program: '/nowhere/ktx'"));
     ::unsetenv("FACETMILL_KTX");
     CHECK(problems_of("textures", options({{"timeout", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"max_size", "nan"}})).starts_with("E-"));
     CHECK(problems_of("textures", options({{"max_size", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"quality", "101"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"lossless", "true"}, {"format", "jpeg"}})) ==
-          "E-CONFLICT textures: 'lossless' goes with format: webp only | use format: webp, or leave it out");
+          "E-CONFLICT textures: 'lossless' needs format: webp | use format: webp, or remove it");
     const auto run = run_stage("textures", "16", scene_of(Mesh{}));
     CHECK(run.record.result["images"].empty());
 }

@@ -33,9 +33,9 @@ TEST_CASE("tile makes a part of every cell", "[stages]") {
 TEST_CASE("tile refuses what makes no grid", "[stages]") {
     CHECK(refusal_of("tile", "0", scene_of(shapes::grid(4, 3))) ==
           "usage [E-TILE] tile: 'size' must be above 0, found 0");
-    CHECK(
-        refusal_of("tile", "{size: 1, axes: xx}", scene_of(shapes::grid(4, 3))) ==
-        "usage [E-TILE] tile: 'axes' takes each of x, y, z at most once, found 'xx' | for example axes: xy");
+    CHECK(refusal_of("tile", "{size: 1, axes: xx}", scene_of(shapes::grid(4, 3))) ==
+          "usage [E-TILE] tile: 'axes' accepts each of x, y, z at most once, found 'xx' | for example axes: "
+          "xy");
     CHECK(refusal_of("tile", "{size: [1, 2, 3]}", scene_of(shapes::grid(4, 3))) ==
           "usage [E-TILE] tile: 3 sizes for 2 axes | give one size, or one for each axis");
     CHECK(refusal_of("tile", "{size: []}", scene_of(shapes::grid(4, 3))) ==
@@ -50,13 +50,13 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
     for (Vec3& p : point.positions) p = {1, 2, 3};
     CHECK(test::failure([&] {
               run_stage("tile", "10%", scene_of(point));
-          }).starts_with("stage [E-TILE] the size of the tiles comes to 0 in this scene"));
+          }).starts_with("stage [E-TILE] the size of the tiles is 0 in this scene"));
     CHECK(test::failure([&] {
               run_stage("section", "{hatch: 1%}", scene_of(point));
-          }).starts_with("stage [E-HATCH] the spacing of 'hatch' comes to 0 in this scene"));
+          }).starts_with("stage [E-HATCH] the spacing of 'hatch' is 0 in this scene"));
     CHECK(test::failure([&] {
               run_stage("section", "{spacing: 1%}", scene_of(point));
-          }).starts_with("stage [E-SECTION] 'spacing' must be above zero"));
+          }).starts_with("stage [E-SECTION] 'spacing' is 0 in this scene, but it must be above zero"));
 }
 
 TEST_CASE("tile puts the points of a cloud into the cells", "[stages]") {

@@ -285,7 +285,7 @@ TEST_CASE("every assertion about parts names the one that fails", "[stages]") {
 
 TEST_CASE("bounds that make no sense are refused, each with its reason", "[stages]") {
     for (const auto& [assertion, reason] : std::vector<std::pair<std::string, std::string>>{
-             {"faces: {max: -1}", "no mesh has a 'faces' of at most -1"},
+             {"faces: {max: -1}", "no mesh can have a 'faces' of at most -1"},
              {"faces: 2.5", "'faces' is a count: a whole number"},
              {"euler: 1.5", "'euler' is a count: a whole number"},
              {"faces: 50%", "expected a number, found '50%'"},
@@ -299,11 +299,11 @@ TEST_CASE("bounds that make no sense are refused, each with its reason", "[stage
              {"faces: [1, 2]", "'faces' is a number (2) or a range"},
              {"faces: .inf", "expected a number"},
              {"closed: 1", "'closed' is true or false"},
-             {"min_angle: {min: 200deg}", "no mesh has a 'min_angle' of at least 200"},
+             {"min_angle: {min: 200deg}", "no mesh can have a 'min_angle' of at least 200"},
              {"min_angle: {min: 5mm}", "expected an angle"},
-             {"aspect_ratio: {max: 0.5}", "no mesh has a 'aspect_ratio' of at most 0.5"},
-             {"longest_edge: {max: -2}", "no mesh has a 'longest_edge' of at most -2"},
-             {"longest_edge: -2mm", "no mesh has a 'longest_edge' of at most -2mm"},
+             {"aspect_ratio: {max: 0.5}", "no mesh can have a 'aspect_ratio' of at most 0.5"},
+             {"longest_edge: {max: -2}", "no mesh can have a 'longest_edge' of at most -2"},
+             {"longest_edge: -2mm", "no mesh can have a 'longest_edge' of at most -2mm"},
              {"joint_count: {max: 2.5}", "'joint_count' is a count: a whole number"},
              {"bounds: 5", "'bounds' is a box"},
              {"unit: parsec", "parsec"}}) {

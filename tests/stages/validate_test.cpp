@@ -8,10 +8,13 @@
 #include "io/images/encode_image.hpp"
 #include "mesh/shapes.hpp"
 #include "report/contents.hpp"
-#include "support/run_stage.hpp"
+#include "stages/validate/scene_limits.hpp"
+#include "support/bench.hpp"
 
 using namespace facetmill;
+using test::Bench;
 using test::failure;
+using test::options;
 using test::run_stage;
 using test::scene_of;
 
@@ -270,21 +273,86 @@ Json limit_evidence(const std::string& limit) {
     return check.passed ? Json("passed") : report::evidence_json(check.evidence);
 }
 
+template <class Limit>
+Limit at_most(double most) {
+    Limit limit;
+    limit.max = most;
+    return limit;
+}
+
+/// The evidence of a limit on a file of 100 bytes and its buffer of 200 bytes.
+Json file_evidence(const validate_stage::SceneLimits& limits) {
+    using namespace validate_stage;
+    const std::vector<report::FileRecord> files{{"a.gltf", 100, "", {}}, {"a.bin", 200, "", {}}};
+    const Scene scene = with_document();
+    const auto checks = check_limits(limits, LimitsOf::file, {scene, files});
+    return checks.at(0).check.passed ? Json("passed") : report::evidence_json(checks[0].check.evidence);
+}
+
+/// "bytes of a.stl 684 passed", one per line.
+std::string checks_of(const Bench& b) {
+    std::string all;
+    for (const auto& check : b.state.record.checks)
+        all += fmt::format("{}{} of {} {} {}", all.empty() ? "" : "\n", check.name, check.file,
+                           report::found_text(check), report::outcome(check));
+    return all;
+}
+
+Value limits(const char* name, const char* most) {
+    return Value::map({{"limits", {}, options({{name, most}})}});
+}
+
 } // namespace
 
+TEST_CASE("validate limits the bytes of files as they are written", "[stages]") {
+    Bench b;
+    b.scene = scene_of(shapes::cube());
+    b.run("write", Value::scalar("a.stl")); // 84 bytes and 50 for each of 12 triangles
+    b.run("validate", limits("bytes", "684"));
+    CHECK(checks_of(b) == "bytes of a.stl 684 passed");
+    b.state.number_scene(false); // the limit is of every file before, whatever happens to the scene
+    b.run("write", options({{"path", "b.ply"}, {"ascii", "true"}}));
+    const auto bytes = b.state.record.outputs.at(1).bytes;
+    b.state.record.checks.clear();
+    b.run("validate", limits("bytes", "600"));
+    CHECK(checks_of(b) == fmt::format("bytes of a.stl 684 failed\nbytes of b.ply {} passed", bytes));
+    b.state.record.checks.clear();
+    b.run("validate", limits("draw_calls", "1"));
+    CHECK(checks_of(b) == "draw_calls of a.stl 1 passed\ndraw_calls of b.ply 1 passed");
+    CHECK(failure([] {
+              run_stage("validate", "{limits: {bytes: 1kB}}", scene_of(shapes::cube()));
+          }).find("'limits.bytes' limits written files, and no file was written before it") !=
+          std::string::npos);
+}
+
+TEST_CASE("validate after write judges the file, in the unit of the scene", "[stages]") {
+    Bench b;
+    b.scene = scene_of(shapes::cube(), Unit::mm);
+    b.scene.up = UpAxis::z;
+    b.scene.parts[0].mesh.positions[0].x = 1 - 1e-9; // float32 makes faces degenerate
+    b.run("validate", options({{"degenerate_faces", "0"}, {"max_extent", "1mm"}}));
+    CHECK(checks_of(b).find("failed") == std::string::npos);
+    b.state.record.checks.clear();
+    b.run("write", Value::scalar("a.glb")); // in metres, y up
+    b.run("validate", options({{"degenerate_faces", "0"}, {"max_extent", "1mm"}}));
+    CHECK(checks_of(b).find("degenerate_faces of a.glb 2 failed") != std::string::npos);
+    CHECK(checks_of(b).find("max_extent of a.glb 1 passed") != std::string::npos);
+    b.state.record.checks.clear();
+    b.state.number_scene(false); // as a stage that changes the scene
+    b.run("validate", options({{"degenerate_faces", "0"}}));
+    CHECK(checks_of(b) == "degenerate_faces of  0 passed");
+    CHECK(b.record.said.back() == "judged the scene, not a.glb");
+}
+
 TEST_CASE("validate says what counts towards a limit that fails, the most first", "[stages]") {
-    CHECK(limit_evidence("texture_pixels: 5000").dump() ==
+    CHECK(file_evidence({.texture_pixels = at_most<CountLimit>(5000)}).dump() ==
           R"([{"image":"steel","width":100,"height":50,"amount":5000},)"
           R"({"image":"wood.webp","width":20,"height":10,"amount":200}])");
-    CHECK(limit_evidence("texture_pixels: 5200") == "passed");
-    const std::size_t webp = with_document().documents[0]->files.at("wood.webp").size();
-    REQUIRE(webp < 149);
-    CHECK(
-        limit_evidence("bytes: 1kB").dump() ==
-        fmt::format(R"([{{"bytes_of":"body.glb: buffer 0","amount":1000}},)"
-                    R"({{"bytes_of":"body.glb: JSON","amount":149}},{{"bytes_of":"wood.webp","amount":{}}}])",
-                    webp));
-    CHECK(limit_evidence("bytes: {max: 1.5KiB}") == "passed");
+    CHECK(file_evidence({.texture_pixels = at_most<CountLimit>(5200)}) == "passed");
+    CHECK(file_evidence({.draw_calls = at_most<CountLimit>(0)}).dump() == R"([{"part":"part","amount":1}])");
+    CHECK(file_evidence({.bytes = at_most<ByteLimit>(299)}).dump() ==
+          R"([{"bytes_of":"a.bin","amount":200},{"bytes_of":"a.gltf","amount":100}])");
+    CHECK(file_evidence({.bytes = at_most<ByteLimit>(300)}) == "passed");
     CHECK(limit_evidence("extensions: [KHR_*]").dump() ==
           R"([{"extension":"VENDOR_b","document":"body.glb"}])");
     CHECK(limit_evidence("extensions: ['*']") == "passed");
@@ -399,11 +467,12 @@ TEST_CASE("validate says that a bare value of a measure is asked for exactly", "
     const auto hint = [](const char* options) {
         return run_stage("validate", options, scene_of(shapes::cube())).state->record.checks.at(0).hint;
     };
-    const std::string exactly = "a bare value asks for exactly that: min asks for at least, max for at most";
+    const std::string exactly =
+        "a bare value requires exactly this value; use min for at least, max for at most";
     CHECK(hint("{min_angle: 30}") == exactly);
     CHECK(hint("{longest_edge: 2}") == exactly);
     CHECK(hint("{volume: 2}") == exactly);
-    CHECK(hint("{min_angle: {min: 60}}") == "relax makes faces more regular");
+    CHECK(hint("{min_angle: {min: 60}}") == "use relax to make faces more regular");
     CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // an exact count is a sensible requirement
     CHECK(hint("{volume: 0}") != exactly);
 }

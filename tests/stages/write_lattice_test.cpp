@@ -31,7 +31,8 @@ Scene metres() {
 
 write_stage::EvenGrid grid_of(const Scene& scene, int bits = 14) {
     const std::vector<int> usual(scene.parts.size(), 12);
-    return write_stage::even_grid(scene, usual, bits, bits, std::vector<bool>(scene.parts.size()));
+    return write_stage::even_grid(scene, distinct_geometry(scene), usual, {bits, bits},
+                                  io::part_views(scene));
 }
 
 /// The file after reading it back.
@@ -134,11 +135,18 @@ TEST_CASE("one mesh has one grid, and what moves or is turned its own", "[stages
         Part& part = add(scene, shapes::cube(), scale);
         part.document = part.source_mesh = 0;
     }
-    Part& turned = add(scene, shapes::cube());
+    const auto larger = [](double by) {
+        Mesh mesh = shapes::cube();
+        for (Vec3& p : mesh.positions) p = p * by;
+        return mesh;
+    };
+    Part& turned = add(scene, larger(1.5));
     turned.transform = {{{0, -1, 0, 0.3}, {1, 0, 0, 0}, {0, 0, 1, 0}}};
-    add(scene, shapes::cube());
+    add(scene, larger(2));
     const std::vector<int> usual{12, 12, 12, 11};
-    const auto grid = write_stage::even_grid(scene, usual, 14, 14, {false, false, false, true});
+    auto views = io::part_views(scene);
+    views[3].animated = true;
+    const auto grid = write_stage::even_grid(scene, distinct_geometry(scene), usual, {14, 14}, views);
     CHECK(grid.lattices[0].step == grid.lattices[1].step);
     CHECK(grid.lattices[1].step * 4 < 5.0 / 16383); // the larger one's
     CHECK(grid.lattices[2].origin == Vec3{0, 0, 0});
@@ -180,6 +188,47 @@ TEST_CASE("an even grid takes one point, flat parts, far ones and huge ones", "[
     add(broken, shapes::cube());
     CHECK_NOTHROW(grid_of(broken));
     CHECK(grid_of(metres()).lattices.empty());
+}
+
+TEST_CASE("chunks that meet still meet in files, by default", "[stages]") {
+    Scene scene = metres();
+    const Mesh field = shapes::grid(20, 20);
+    const Box box = field.bounds();
+    const Vec3 middle = box.centre();
+    for (int quarter = 0; quarter < 4; ++quarter) { // those of a plane, with heights and an odd size
+        Mesh mesh;
+        std::vector<Index> number(field.vertex_count(), none);
+        for (Index f = 0; f < field.face_count(); ++f) {
+            Vec3 centre;
+            for (const Index w : field.face_wedges(f)) centre = centre + field.positions[w] * (1.0 / 3);
+            if ((centre.x > middle.x) + 2 * (centre.y > middle.y) != quarter) continue;
+            for (const Index w : field.face_wedges(f)) {
+                if (number[w] == none) {
+                    const Vec3 p = field.positions[w] - box.min;
+                    number[w] = static_cast<Index>(mesh.positions.size());
+                    mesh.positions.push_back({7.3 * p.x, 7.3 * p.y, 0.9 * p.x * p.y});
+                }
+                mesh.corners.push_back(number[w]);
+            }
+        }
+        add(scene, std::move(mesh));
+    }
+    for (const char* given :
+         {"{path: a.glb, draco: true}", "{path: a.glb, meshopt: true}", "{path: a.glb, quantize: true}"}) {
+        INFO(given);
+        Bench b;
+        b.scene = scene;
+        const Scene again = written(b, given);
+        std::vector<Vec3> points;
+        for (const Part& part : again.parts)
+            for (const Vec3& p : part.mesh.positions) points.push_back(part.transform.point(p));
+        REQUIRE(points.size() == 4 * 11 * 11);
+        std::size_t met = 0;
+        const double size = scene.bounds().diagonal();
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) met += length(points[i] - points[k]) < 1e-8 * size;
+        CHECK(met == 2 * 20 + 6); // pairs on the borders, and the six of the middle
+    }
 }
 
 } // namespace write_lattice_test

@@ -8,6 +8,7 @@
 #include "support/temporary.hpp"
 
 #include <fmt/format.h>
+#include <set>
 
 using namespace facetmill;
 using namespace facetmill::test;
@@ -206,4 +207,42 @@ TEST_CASE("a backslash in the name of a file is none in the names beside it", "[
     const Scene scene = test::scene_in_metres(shapes::cube());
     const std::string path = (dir / "back\\slash.gltf").string();
     CHECK(warnings_of(scene, "{path: '" + path + "'}").empty()); // read back, with its buffer
+}
+
+TEST_CASE("colours of faces are kept where corners have colours, and said elsewhere", "[stages]") {
+    const TemporaryDirectory dir;
+    // A tetrahedron whose faces are red, green, blue and yellow.
+    const std::string off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1 255 0 0\n3 0 1 3 0 255 0\n"
+                            "3 1 2 3 0 0 255\n3 0 3 2 255 255 0\n";
+    io::ReadLog log;
+    Scene scene = io::read_scene(io::Input::of("a.off", to_bytes(off)), {}, log);
+    scene.unit = Unit::m;
+    scene.up = UpAxis::y;
+    for (const char* format : {"glb", "3mf", "drc", "ply", "off", "stl"}) {
+        INFO(format);
+        const io::Written file = written(scene, format);
+        CHECK(file.warnings.empty());
+        const Scene back = read_bytes(file.files.at(0).bytes, format);
+        const Mesh& mesh = back.parts.at(0).mesh;
+        const Attribute* of_faces = mesh.find("COLOR_0", Domain::face);
+        const Attribute* colours = of_faces ? of_faces : mesh.find("COLOR_0", Domain::wedge);
+        REQUIRE(colours);
+        std::multiset<std::vector<double>> found;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            const auto wedges = mesh.face_wedges(f);
+            std::vector<double> colour;
+            for (int c = 0; c < 3; ++c) colour.push_back(colours->value(of_faces ? f : wedges[0], c));
+            for (const Index w : wedges)
+                for (int c = 0; c < 3; ++c)
+                    CHECK(colours->value(of_faces ? f : w, c) == colour[static_cast<std::size_t>(c)]);
+            found.insert(colour);
+        }
+        CHECK(found == std::multiset<std::vector<double>>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}});
+    }
+    CHECK(warnings_of(scene, (dir / "b.obj").string()) ==
+          "W-ATTRIBUTE OBJ has no place for attributes: COLOR_0 (glTF keeps them: write .glb)\n");
+    scene.parts[0].mesh.attributes.push_back(
+        {"quality", Domain::face, Role::generic, 1, false, std::vector<float>(4, 1.0F)});
+    CHECK(warnings_of(scene, (dir / "b.glb").string()) ==
+          "W-ATTRIBUTE glTF has no place for attributes: quality of faces (PLY keeps them: write .ply)\n");
 }

@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "base/json.hpp"
 #include "io/codec.hpp"
 #include "support/bench.hpp"
 #include "support/failure.hpp"
@@ -152,19 +153,132 @@ TEST_CASE("formats of faces only refuse point clouds, and scenes without anythin
         b.scene.parts.emplace_back().mesh.positions = {{0, 0, 0}, {1, 0, 0}};
         return failure([&] { b.run("write", given); });
     };
-    const std::string hint =
-        " | drc, glb, gltf, obj, off, ply can store points, but only drc can compress them";
+    const std::string hint = " | drc, glb, gltf, obj, off, ply can store points";
     for (const char* name : {"a.stl", "a.3mf"})
         CHECK(refusal(Value::scalar(name)) ==
               fmt::format(
                   "stage [E-EMPTY] there is nothing to write to '{}': the scene has points and no faces{}",
                   name, hint));
-    CHECK(refusal(options({{"path", "a.glb"}, {"draco", "true"}})).ends_with(hint));
     Bench empty;
     CHECK(failure([&] { empty.run("write", Value::scalar("a.ply")); }) ==
           "stage [E-EMPTY] there is nothing to write to 'a.ply': the scene has neither faces nor points | "
           "check the result of the stages before; the common key when: {vertices: {min: 1}} skips an empty "
           "write");
+}
+
+/// Four points and a triangle, as parts.
+Scene points_and_triangle() {
+    Scene scene;
+    scene.unit = Unit::m;
+    scene.up = UpAxis::y;
+    Part& points = scene.parts.emplace_back();
+    points.name = "points";
+    points.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+    Part& triangle = scene.parts.emplace_back();
+    triangle.name = "triangle";
+    triangle.mesh.positions = {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+    triangle.mesh.corners = {0, 1, 2};
+    return scene;
+}
+
+TEST_CASE("formats keep points beside faces, or warn that they leave them out", "[stages]") {
+    for (const char* name : {"a.glb", "a.gltf", "a.ply", "a.obj", "a.off"}) {
+        INFO(name);
+        Bench b;
+        b.scene = points_and_triangle();
+        b.run("write", Value::scalar(name));
+        for (const auto& warning : b.record.warnings) CHECK(warning.id == "W-PARTS");
+        b.state.outputs.commit();
+        b.scene = {};
+        b.run("load", Value::scalar(name));
+        std::size_t vertices = 0;
+        for (const Part& part : b.scene.parts) vertices += part.mesh.vertex_count();
+        CHECK(vertices == 7);
+        CHECK(b.scene.face_count() == 1);
+    }
+    for (const char* name : {"a.stl", "a.drc", "a.3mf"}) {
+        INFO(name);
+        Bench b;
+        b.scene = points_and_triangle();
+        b.run("write", Value::scalar(name));
+        REQUIRE(b.record.warnings.size() == 1);
+        CHECK(b.record.warnings[0].id == "W-SKIPPED");
+        CHECK(b.record.warnings[0].message.ends_with(
+            "cannot store points next to faces, so 1 part is skipped: points"));
+        CHECK(b.scene.parts[0].mesh.vertex_count() == 4);
+    }
+}
+
+TEST_CASE("a GLB of points is compressed within half a step of its grid", "[stages]") {
+    for (const auto& given : {options({{"path", "a.glb"}, {"meshopt", "true"}}),
+                              options({{"path", "a.glb"}, {"quantize", "true"}}),
+                              options({{"path", "a.glb"}, {"quantize", "true"}, {"meshopt", "true"}}),
+                              options({{"path", "a.glb"}, {"draco", "true"}})}) {
+        Bench b;
+        b.scene.unit = Unit::m;
+        b.scene.up = UpAxis::y;
+        const Mesh points = cloud(3000);
+        b.scene.parts.emplace_back().mesh = points;
+        b.run("write", given);
+        b.state.outputs.commit();
+        b.scene = {};
+        b.run("load", Value::scalar("a.glb"));
+        REQUIRE(b.scene.parts.size() == 1);
+        const Part& part = b.scene.parts[0];
+        REQUIRE(part.mesh.vertex_count() == 3000);
+        const double step = 64.0 / ((1 << 14) - 1);
+        for (const auto& [number, i] : by_number(part.mesh))
+            CHECK(length(part.transform.point(part.mesh.positions[i]) - points.positions[number]) <= step);
+    }
+}
+
+TEST_CASE("clean and optimize keep the distinct points of a cloud", "[stages]") {
+    Bench b;
+    b.scene = points_and_triangle();
+    Mesh& points = b.scene.parts[0].mesh;
+    points.positions.push_back(points.positions[0]);
+    points.attributes.push_back(
+        {"COLOR_0", Domain::wedge, Role::colour, 3, true, std::vector<std::uint8_t>(15, 200)});
+    b.run("clean", Value::map({}));
+    b.run("optimize", Value::map({}));
+    REQUIRE(b.scene.parts.size() == 2);
+    CHECK(b.scene.parts[0].mesh.vertex_count() == 4);
+    CHECK(b.scene.parts[0].mesh.wedge_count() == 4);
+}
+
+TEST_CASE("a GLB of points keeps its nodes, its shared mesh and its animation", "[stages]") {
+    const std::string text =
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"name":"survey","nodes":[0]}],
+ "nodes":[{"name":"site","extras":{"station":7},"children":[1,2],"scale":[2,2,2]},{"name":"a","mesh":0},
+ {"name":"b","mesh":0,"translation":[9,0,0]}],
+ "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
+ "animations":[{"samplers":[{"input":1,"output":0}],"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]}],
+ "meshes":[{"name":"scan","extras":{"scanner":"x"},"primitives":[{"attributes":{"POSITION":0},"mode":0}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+ {"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR","min":[0],"max":[2]}],
+ "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12}],
+ "buffers":[{"byteLength":48,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAABA"}]})";
+    for (const bool changed : {false, true})
+        for (const auto& given : {options({{"path", "b.gltf"}}),
+                                  options({{"path", "b.gltf"}, {"meshopt", "true"}, {"quantize", "true"}})}) {
+            Bench b;
+            put(b.dir / "a.gltf", text);
+            b.run("load", Value::scalar("a.gltf"));
+            CHECK(b.record.warnings.empty());
+            REQUIRE(b.scene.parts.size() == 2);
+            for (Part& part : b.scene.parts) part.changed = changed;
+            b.run("write", given);
+            CHECK(b.record.warnings.empty());
+            b.state.outputs.commit();
+            const Json json = Json::parse(std::ifstream(b.dir / "b.gltf"));
+            CHECK(json["scenes"][0]["name"] == "survey");
+            CHECK(json["meshes"].size() == 1);
+            CHECK(json["meshes"][0]["extras"]["scanner"] == "x");
+            CHECK(json["nodes"][0]["extras"]["station"] == 7);
+            CHECK(json["nodes"][0]["children"] == Json{1, 2});
+            CHECK(json["cameras"].size() == 1);
+            CHECK(json["animations"].size() == 1);
+        }
 }
 
 } // namespace write_points_test

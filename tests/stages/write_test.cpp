@@ -132,8 +132,71 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
     b.run("write", Value::scalar("c.stl"));
     REQUIRE(b.record.warnings.size() == 2);
-    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl moved 1 point onto others: use clean before "
-                                       "write, or write PLY, OBJ or OFF with precision: full");
+    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl moved 1 point onto others: put clean: "
+                                       "{precision: single, self_intersections: "
+                                       "all} before write, or write PLY, OBJ or OFF with precision: full");
+    b.run("clean", options({{"precision", "single"}, {"self_intersections", "all"}}));
+    b.run("write", Value::scalar("d.stl"));
+    CHECK(b.record.warnings.size() == 2); // the hint helps
+}
+
+namespace {
+
+/// A hollow ball whose wall is thinner than a step of float32, far from the origin.
+Scene thin_ball() {
+    Mesh ball = shapes::icosphere(3), inner = shapes::icosphere(3);
+    for (Vec3& p : inner.positions) p = p * (1 - 3e-7);
+    for (std::size_t c = 0; c < inner.corners.size(); c += 3)
+        std::swap(inner.corners[c], inner.corners[c + 1]);
+    append(ball, inner);
+    for (Vec3& p : ball.positions) p = p * 10.0 + Vec3{100.123, 200.4567, 50.7891};
+    return scene_of(std::move(ball), Unit::mm);
+}
+
+} // namespace
+
+TEST_CASE("write keeps the purpose of an earlier check in the file", "[stages]") {
+    for (const char* path : {"a.stl", "a.3mf", "a.ply", "a.glb"}) {
+        Bench b;
+        b.scene = thin_ball();
+        b.scene.up = UpAxis::y;
+        b.run("validate", options({{"for", "printing"}}));
+        b.run("write", Value::scalar(path));
+        CHECK(b.record.result["fits"] == "printing");
+        CHECK(b.scene.parts[0].mesh.face_count() == 2 * 1280); // the scene passes on as it was
+        b.run("validate", options({{"for", "printing"}}));
+        for (const auto& check : b.state.record.checks) CHECK(check.passed);
+        CHECK(b.state.record.checks.back().file == path);
+    }
+    Bench b; // two solids that overlap become one mesh with intersections
+    b.scene = scene_of(shapes::cube(), Unit::mm);
+    b.scene.parts.push_back(b.scene.parts[0]);
+    b.scene.parts[1].name = "other";
+    for (Vec3& p : b.scene.parts[1].mesh.positions) p += Vec3{0.5, 0.25, 0.125};
+    b.run("validate", options({{"for", "printing"}}));
+    b.run("write", Value::scalar("b.stl"));
+    const report::Check& check = b.state.record.checks.back();
+    CHECK(check.name == "self_intersections");
+    CHECK(check.file == "b.stl");
+    CHECK_FALSE(check.passed);
+    CHECK(check.hint ==
+          "stl joins the parts: put merge and clean: {self_intersections: union} before the check, "
+          "or write 3MF");
+}
+
+TEST_CASE("write warns if a mesh without an up axis seems to lie on its side in the file", "[stages]") {
+    Bench b;
+    Mesh tower = shapes::icosphere(1);
+    for (Vec3& p : tower.positions) p.z *= 3;
+    b.scene = scene_of(std::move(tower), Unit::m);
+    b.run("write", Value::scalar("a.glb"));
+    REQUIRE(b.record.warnings.size() == 1);
+    CHECK(b.record.warnings[0].id == "W-UP");
+    b.run("write", Value::scalar("a.3mf")); // z is up in 3MF
+    CHECK(b.record.warnings.size() == 1);
+    b.scene.up = UpAxis::z;
+    b.run("write", Value::scalar("b.glb"));
+    CHECK(b.record.warnings.size() == 1);
 }
 
 namespace {
@@ -232,7 +295,7 @@ TEST_CASE("write makes triangles for readers of no other faces, and leaves the s
         CHECK(b.record.warnings.empty());
         CHECK(b.state.record.outputs.back().read_back["faces"] == 4);
         CHECK(b.record.said ==
-              std::vector<std::string>{"1 face of more than three corners written as triangles"});
+              std::vector<std::string>{"1 face with more than three corners written as triangles"});
         CHECK(b.scene.parts[0].mesh.face_count() == 2);
         CHECK_FALSE(b.scene.parts[0].changed);
     }

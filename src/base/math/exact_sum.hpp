@@ -17,7 +17,7 @@ namespace facetmill {
 template <std::size_t capacity = 0>
 class ExactSum {
   public:
-    /// Adds x (grow-expansion, zeros left out).
+    /// Adds x (grow-expansion without zeros).
     void add(double x) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < size_; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Quantiles of the normal distribution of many numbers at once.
+// Computes quantiles of the normal distribution for many numbers at once.
 
 #include <span>
 

@@ -67,7 +67,7 @@ double of_quadrant(const Reduced& r, unsigned quadrant) {
 
 double sine(double x) {
     if (!std::isfinite(x)) return not_a_number;
-    if (std::abs(x) < 1e-8) return x; // and -0 stays -0
+    if (std::abs(x) < 1e-8) return x; // keeps -0 too
     const Reduced r = reduce(x);
     return of_quadrant(r, r.quadrant);
 }
@@ -89,7 +89,7 @@ Real in_powers_of_2(const Real& x) {
     return x * (1 / (ln2_high + ln2_low)) + 0.5;
 }
 
-/// exp(x) / 2^n for that n.
+/// exp(x) / 2^n for this n.
 template <class Real>
 Real exponential_of_rest(const Real& x, const Real& n) {
     const Real high = x - n * ln2_high, low = n * ln2_low, r = high - low, rest = (high - r) - low;
@@ -126,8 +126,8 @@ double logarithm(double x) {
         m *= 2;
         --exponent;
     }
-    // log(1 + f) = 2 artanh(s), s = f / (2 + f), in the form f - (f^2/2 - s (f^2/2 + R)) that loses nothing
-    // near 1.
+    // log(1 + f) = 2 artanh(s), s = f / (2 + f), in the form f - (f^2/2 - s (f^2/2 + R)), which keeps
+    // precision near 1.
     constexpr double c[] = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,
                             2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21};
     const double f = m - 1, s = f / (2 + f), z = s * s, half = f * f / 2, rest = z * polynomial(z, c),
@@ -168,8 +168,7 @@ void arc_tangents(std::span<const double> y, std::span<const double> x, std::spa
 double arc_tangent(double y, double x) {
     if (std::isnan(x) || std::isnan(y)) return not_a_number;
     const double ax = std::abs(x), ay = std::abs(y), small = std::min(ax, ay), large = std::max(ax, ay);
-    // Equal infinities are at 45 degrees; two zeros lie on the x axis, by the signs of both (as atan2 has
-    // it).
+    // Equal infinities are at 45 degrees. Two zeros are on the x axis, by the signs of both, as in atan2.
     const double t = large == 0 ? 0 : std::isinf(large) ? (std::isinf(small) ? 1 : 0) : small / large;
     return angle_of(t, y, x);
 }
@@ -182,7 +181,7 @@ double arc_cosine(double x) {
 
 namespace {
 
-constexpr double tail = 0.02425; // below, another approximation is used
+constexpr double tail = 0.02425; // below this, another approximation is used
 
 /// Rational approximations of the quantile for 0 < p <= 1/2 with a relative error of 1.2e-9: P. J. Acklam,
 /// "An algorithm for computing the inverse normal cumulative distribution function" (2003). This function
@@ -201,7 +200,7 @@ Real rough_middle(const Real& q) {
     return q * polynomial(r, a) / polynomial(r, b);
 }
 
-/// The same for all p.
+/// The approximation for all p.
 double rough_quantile(double p) {
     constexpr double c[] = {2.938163982698783e+00,  4.374664141464968e+00,  -2.549732539343734e+00,
                             -2.400758277161838e+00, -3.223964580411365e-01, -7.784894002430293e-03};
@@ -236,7 +235,7 @@ double lower_quantile(double p) {
     // The difference P(N < -sure) - p; near the middle computed from the differences to one half.
     const double excess =
         sure < 2.2 ? (0.5 - p) - central_probability(sure, density) : tail_probability(sure, density) - p;
-    const double step = excess / density; // Newton's, for x -> x - f / f'
+    const double step = excess / density; // Newton's step, for x -> x - f / f'
     return -sure - step / (1 + -sure * step / 2);
 }
 
@@ -277,7 +276,7 @@ bool any(const LaneTruths& t) {
     return (either[0] | either[1]) != 0;
 }
 
-/// The first value where t is below x, the other elsewhere.
+/// The value `below` for lanes with t below x, otherwise `other`.
 Lanes choose_below(const Lanes& t, double x, double below, double other) {
     const Lanes there = below, elsewhere = other, edge = x;
     return {t.a < edge.a ? there.a : elsewhere.a, t.b < edge.b ? there.b : elsewhere.b};

@@ -12,16 +12,17 @@ namespace facetmill {
 inline constexpr double orientation_error = 3.3306690738754716e-16;
 inline constexpr double orientation_smallest = 1e-290;
 
-/// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 when they turn left. Exact for
+/// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 if they turn left. Exact for
 /// finite coordinates of any size: a floating-point filter, then exact expansions (J. R. Shewchuk, "Adaptive
-/// precision floating-point arithmetic and fast robust geometric predicates", 1997), and integers where those
+/// precision floating-point arithmetic and fast robust geometric predicates", 1997), and integers if those
 /// would overflow or underflow.
 [[nodiscard]] int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
 
-/// True when the three points are collinear (or two coincide), exactly: their three axis projections are.
+/// True if the three points are collinear (or two coincide). Exact: tests their three axis projections.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// True when the three points have the same coordinate along axis k, so their plane is perpendicular to it.
+/// True if the three points have the same coordinate along axis k, so that their plane is perpendicular to
+/// it.
 constexpr bool is_level(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t k) {
     return a[k] == b[k] && b[k] == c[k];
 }

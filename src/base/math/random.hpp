@@ -1,6 +1,6 @@
 #pragma once
-// A counter-based generator: the number at a key is a pure function of seed and key, so neither the order of
-// calls nor the number of threads matters.
+// A counter-based random generator. The number for a key is a pure function of seed and key, independent of
+// the order of calls and the number of threads.
 
 #include <cstdint>
 
@@ -15,7 +15,7 @@ namespace facetmill {
     return z ^ (z >> 31);
 }
 
-/// A well-mixed 64-bit value of both. Chain calls to hash longer keys.
+/// A well-mixed 64-bit hash of seed and key. Chain calls to hash longer keys.
 [[nodiscard]] constexpr std::uint64_t hashed(std::uint64_t seed, std::uint64_t key) {
     return mixed_bits(mixed_bits(seed + 0x9e3779b97f4a7c15ULL * (key + 1)));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Four float32 numbers at once, as compiler vectors: every processor has instructions for them.
+// Vectors of four float32 numbers, for which every processor has instructions.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,8 +24,8 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 #endif
 }
 
-/// Prefetches an object that is read soon. Always inline: GCC 12 drops calls of functions that do nothing
-/// else.
+/// Prefetches an object that will be read soon. Always inline: GCC 12 drops calls of functions that do
+/// nothing else.
 template <class T>
 [[gnu::always_inline]] inline void fetch_soon(const T& object) {
     const char* const begin = reinterpret_cast<const char*>(&object);

@@ -1,6 +1,6 @@
 #pragma once
-// Three doubles and the few operations on them that every algorithm needs. All use + - x / sqrt only, so
-// results do not depend on the processor (see base/math/portable_math.hpp for the transcendental ones).
+// Vectors of three doubles, and the operations that every algorithm needs. All use + - x / sqrt only, so
+// results do not depend on the processor (see base/math/portable_math.hpp for transcendental functions).
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// An axis-aligned box; empty until something is added.
+/// An axis-aligned box; empty until a point is added.
 struct Box {
     Vec3 min{HUGE_VAL, HUGE_VAL, HUGE_VAL}, max{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
@@ -89,7 +89,7 @@ struct Box {
     double diagonal() const { return length(extent()); }
 };
 
-/// An affine map, row-major: p -> m*p with p as a column (x, y, z, 1).
+/// An affine map, row-major: maps p to m*p, with p as a column (x, y, z, 1).
 struct Transform {
     double m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
@@ -111,7 +111,7 @@ struct Transform {
     }
 };
 
-/// a after b.
+/// The transform that applies b, then a.
 inline Transform operator*(const Transform& a, const Transform& b) {
     Transform r;
     for (int i = 0; i < 3; ++i)

@@ -104,7 +104,7 @@ void expand(const fs::path& base, std::vector<fs::path>::const_iterator componen
 
 bool glob_matches(std::string_view pattern, std::string_view text) {
     std::size_t p = 0, t = 0;
-    std::optional<std::size_t> star; // after the last star, and where its match currently ends
+    std::optional<std::size_t> star; // position after the last star, and the current end of its match
     std::size_t run_end = 0;
     while (t < text.size()) {
         if (p < pattern.size() && pattern[p] == '*') {
@@ -149,7 +149,7 @@ std::vector<fs::path> expand_glob(const fs::path& pattern) {
     if (!is_glob(pattern.string()) || fs::exists(pattern, ignored)) return {pattern};
     const fs::path below = pattern.relative_path();
     std::vector<fs::path> components(below.begin(), below.end());
-    if (components.back() == "**") components.emplace_back("*"); // all files below
+    if (components.back() == "**") components.emplace_back("*"); // at the end, ** matches all files below
     std::vector<fs::path> found;
     expand(pattern.root_path(), components.begin(), components.end(), found);
     std::sort(found.begin(), found.end(),

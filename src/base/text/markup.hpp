@@ -6,11 +6,11 @@
 
 namespace facetmill {
 
-/// The text with & < > and both quotes as entities. Control characters and invalid UTF-8 bytes, which XML
+/// The text with &, <, > and both quotes as entities. Control characters and invalid UTF-8 bytes, which XML
 /// forbids, each become U+FFFD.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// A name or a path, escaped, with line breaks allowed after slashes and underscores, because browsers would
+/// An escaped name or path. It allows line breaks after slashes and underscores, because browsers would
 /// otherwise break words.
 [[nodiscard]] std::string escaped_path(std::string_view path);
 
@@ -37,7 +37,7 @@ class Painted {
     std::string text_;
 };
 
-/// The text as one word for sh: unchanged if it has no special characters, else in single quotes.
+/// The text as one word for sh: unchanged if it has no special characters, otherwise in single quotes.
 [[nodiscard]] std::string for_shell(std::string_view text);
 
 } // namespace facetmill

@@ -45,7 +45,7 @@ std::string readable(double number) {
 }
 
 std::string readable_coordinate(double x) {
-    constexpr double most = 1e12; // beyond, decimals are meaningless
+    constexpr double most = 1e12; // beyond this, decimals are meaningless
     if (!(std::abs(x) >= 1000 && std::abs(x) < most)) return readable(x);
     std::string text = fmt::format("{:.3f}", x);
     text.erase(text.find_last_not_of('0') + 1);

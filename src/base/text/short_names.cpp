@@ -7,7 +7,7 @@ namespace facetmill {
 
 namespace {
 
-/// From last to first; "-" gets a component that no file has.
+/// The components from last to first. "-" becomes a component that no file has.
 std::vector<std::string> components_of(const std::string& path) {
     if (path == "-") return {"standard input"};
     std::vector<std::string> out;
@@ -16,7 +16,7 @@ std::vector<std::string> components_of(const std::string& path) {
     return out.empty() ? std::vector<std::string>{path} : out;
 }
 
-/// depth: of the component where the name begins.
+/// depth: the depth of the component where the name begins.
 std::string name_from(const std::vector<std::string>& components, std::size_t depth) {
     if (depth == 0 || components.size() <= depth) return components.front();
     const std::string first = components[depth] == "/" ? "" : components[depth];

@@ -10,8 +10,8 @@ namespace facetmill {
 [[nodiscard]] std::string short_name(const std::string& path);
 
 /// The shortest names that distinguish two files or folders: their last components or, if these are equal,
-/// the last differing components before them: "old/.../a.glb" and "new/.../a.glb". The same file twice has
-/// one name.
+/// the last differing components before them: "old/.../a.glb" and "new/.../a.glb". Equal files have equal
+/// names.
 [[nodiscard]] std::pair<std::string, std::string> short_names(const std::string& a, const std::string& b);
 
 } // namespace facetmill

@@ -19,11 +19,11 @@ bool same_word(std::string_view a, std::string_view b);
 /// The candidate nearest to the word (the first of ties), or empty if none is near enough.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "did you mean 'x'?" if a candidate is near enough, else otherwise.
+/// The text "did you mean 'x'?" if a candidate is near enough, otherwise `otherwise`.
 [[nodiscard]] std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                                        std::string otherwise = {});
 
-/// "did you mean 'x'?" if a candidate is near enough, else "expected one of: a, b, c".
+/// The text "did you mean 'x'?" if a candidate is near enough, otherwise "expected one of: a, b, c".
 [[nodiscard]] std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace facetmill

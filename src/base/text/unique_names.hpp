@@ -8,7 +8,8 @@
 
 namespace facetmill {
 
-/// The name if it is free, else the first free one of NAME_2, NAME_3 ...: for which taken(name) is false.
+/// The name if it is free, otherwise the first free name of NAME_2, NAME_3 ... A name is free if taken(name)
+/// is false.
 template <class Taken>
 [[nodiscard]] std::string free_name(const std::string& wanted, Taken&& taken) {
     std::string name = wanted;
@@ -34,7 +35,7 @@ class UniqueNames {
   private:
     char separator_;
     std::set<std::string> taken_;
-    std::map<std::string, int> copies_; ///< where to continue counting
+    std::map<std::string, int> copies_; ///< the last number used for each name
 };
 
 } // namespace facetmill

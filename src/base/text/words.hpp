@@ -9,14 +9,14 @@
 
 namespace facetmill {
 
-/// The noun for this count: "face" for 1, else its plural, by default the noun and an s.
+/// The noun for this count: "face" for 1, otherwise its plural, by default the noun and an s.
 [[nodiscard]] inline std::string noun_for(std::size_t count, std::string_view noun,
                                           std::string_view plural = {}) {
     if (count == 1) return std::string(noun);
     return plural.empty() ? std::string(noun) + "s" : std::string(plural);
 }
 
-/// "1 face", "2 faces".
+/// The count with its noun: "1 face", "2 faces".
 [[nodiscard]] inline std::string counted(std::size_t count, std::string_view noun,
                                          std::string_view plural = {}) {
     return fmt::format("{} {}", count, noun_for(count, noun, plural));
@@ -31,11 +31,11 @@ namespace facetmill {
 /// The text without spaces and tabs at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// The texts between commas, without blanks around them: "a, b" is a and b. Two commas enclose an empty
-/// item, and so do a comma and an end, so that the caller can refuse it. A blank text has no items.
+/// The texts between commas, without blanks around them: "a, b" gives a and b. Two commas, or a comma and an
+/// end, enclose an empty item, which the caller can refuse. A blank text has no items.
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// Adds an item to a list in text; an empty one adds nothing.
+/// Adds an item to a list in text. An empty item adds nothing.
 void append_item(std::string& list, std::string_view item, std::string_view between = ", ");
 
 /// Joins the items that are not empty.

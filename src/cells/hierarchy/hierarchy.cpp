@@ -16,13 +16,13 @@ namespace {
 
 // Measured: the peak memory of simplify per input triangle, and the process's base memory.
 constexpr std::uint64_t bytes_of_face = 300, bytes_of_process = std::uint64_t{28} << 20;
-// The same for meshes with more vertices than a connected surface has.
+// The peak memory for meshes with more vertices than a connected surface has.
 constexpr std::uint64_t bytes_of_face_alone = 200, bytes_of_vertex = 200;
-// The same with the whole mesh in memory and the deviation measured.
+// The peak memory with the whole mesh in memory and the deviation measured.
 constexpr std::uint64_t bytes_in_core = 200;
 
-/// A node keeps more faces than its part of the target, so that nodes above can choose. Nodes near the root
-/// keep less.
+/// A node keeps more faces than its share of the target, so that nodes above can choose. Nodes near the root
+/// keep fewer.
 constexpr std::uint64_t slack[] = {1, 2, 4};
 /// Extra faces per held vertex, because held vertices need faces of their own.
 constexpr std::uint64_t faces_of_held = 3;
@@ -103,7 +103,7 @@ class Hierarchy {
                left_.vertices_below(station) * bytes_of_vertex;
     }
 
-    /// Throws limit (E-MEMORY) if cells did not shrink enough to be joined.
+    /// Throws a limit error (E-MEMORY) if cells did not shrink enough to be joined.
     void require_room(std::size_t station) const {
         const std::uint64_t needed = bytes_of_process + bytes_given(station);
         if (hierarchy_nodes_[station].is_leaf() || needed <= means_.memory) return;

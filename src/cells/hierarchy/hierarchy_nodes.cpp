@@ -16,9 +16,9 @@ namespace {
 
 /// Faces and leaves below each node of the tree.
 struct BelowNodes {
-    std::vector<std::uint64_t> faces;      ///< [nodes]
-    std::vector<std::uint32_t> first_leaf; ///< [nodes]
-    std::vector<std::uint32_t> end_leaf;   ///< [nodes] after the last
+    std::vector<std::uint64_t> faces;      ///< [nodes] numbers of faces
+    std::vector<std::uint32_t> first_leaf; ///< [nodes] first leaf
+    std::vector<std::uint32_t> end_leaf;   ///< [nodes] one past the last leaf
 
     explicit BelowNodes(const Partition& partition) {
         const std::vector<Tree::Node>& nodes = partition.tree().nodes;
@@ -37,7 +37,7 @@ struct BelowNodes {
 
 class StationMaker {
   public:
-    /// together: see hierarchy_nodes_of; 0: a station per leaf.
+    /// together: see hierarchy_nodes_of. 0: a station per leaf.
     StationMaker(const Partition& partition, std::uint64_t together)
         : tree_(partition.tree()), below_(partition), together_(together) {
         add(0, 0, together > 0 && height_of(0) % 2 == 1);
@@ -82,7 +82,7 @@ class StationMaker {
     std::uint64_t together_;
 };
 
-/// The record before a cell. left: an entry of LeftCells.
+/// Writes or reads the record before a cell. left: an entry of LeftCells.
 void archive_left(auto& archive, auto& left) {
     archive(left.vertices, left.faces, left.work.error, left.work.area, left.work.collapses,
             left.work.turned);
@@ -162,7 +162,7 @@ std::size_t levels_of(const std::vector<Station>& hierarchy_nodes) {
 
 namespace {
 
-/// The stations at which the tree is cut into jobs: the stations of a level, and cells above it.
+/// The stations at which the tree is divided into jobs: the stations of a level, and cells above this level.
 std::vector<std::size_t> tops_of(const std::vector<Station>& hierarchy_nodes, std::size_t level) {
     std::vector<std::size_t> tops;
     for (std::size_t s = 0; s + 1 < hierarchy_nodes.size(); ++s)

@@ -20,13 +20,13 @@ struct Station {
 
 /// Each station follows its children; the root is last.
 [[nodiscard]] std::vector<Station> hierarchy_nodes_of(const Partition& partition);
-/// The same, except that all leaves below a node form a single station if they have at most `together`
-/// faces. In a tree of odd height the root joins two stations, so that stations below join four.
+/// The stations, where all leaves below a node form a single station if they have at most `together` faces.
+/// In a tree of odd height the root joins two stations, so that stations below join four.
 [[nodiscard]] std::vector<Station> hierarchy_nodes_of(const Partition& partition, std::uint64_t together);
 
 [[nodiscard]] std::size_t levels_of(const std::vector<Station>& hierarchy_nodes);
 
-/// The stations that a simplifying job processes: [stations], each with all stations below it. Jobs have
+/// [stations] 1 for stations that a simplifying job processes, each with all stations below it. Jobs have
 /// similar numbers of faces, and the last run processes the stations above all jobs.
 [[nodiscard]] std::vector<std::uint8_t> hierarchy_nodes_of_job(const std::vector<Station>& hierarchy_nodes,
                                                                const CellJob& job);
@@ -41,7 +41,7 @@ void settle_below_root(const std::vector<Station>& hierarchy_nodes, const std::v
 /// The work at a station and below it.
 struct StationWork {
     double error = 0;
-    double area = 0; ///< of the input mesh
+    double area = 0; ///< area of the input mesh
     std::size_t collapses = 0, turned = 0;
 };
 
@@ -51,21 +51,21 @@ class LeftCells {
     /// kept: store results in files of means.kept, if that folder is set.
     LeftCells(const std::vector<Station>& hierarchy_nodes, const CellResources& means, bool kept);
 
-    /// Loads the kept results of these stations with this key, each with all stations below it. Returns the
-    /// stations still to process: [stations], without loaded stations and their descendants. others_go:
-    /// remove kept results with other keys.
+    /// Loads the kept results with this key of these stations and all stations below them. Returns the
+    /// stations still to process: [stations] 1, except loaded stations and their descendants. others_go:
+    /// removes kept results with other keys.
     std::vector<std::uint8_t> take_up(const std::vector<std::uint8_t>& among, bool others_go);
-    /// Thread-safe. Throws output (E-WRITE, E-SPACE).
+    /// Thread-safe. Throws an output error (E-WRITE, E-SPACE).
     void put(std::size_t station, Cell cell, const StationWork& work = {});
     const StationWork& work(std::size_t station) const { return left_[station].work; }
-    /// The joined children of the station. Thread-safe. Throws output (E-SCRATCH).
+    /// The joined children of the station. Thread-safe. Throws an output error (E-SCRATCH).
     Cell joined_at(std::size_t station, const Tree& tree) const;
-    std::uint64_t vertices_below(std::size_t station) const; ///< the sum over its children
+    std::uint64_t vertices_below(std::size_t station) const; ///< sum over the station's children
     std::uint64_t faces_below(std::size_t station) const;
 
   private:
     struct Left {
-        Block block; ///< in file_, unless it is kept
+        Block block; ///< position in file_, unless kept
         std::uint64_t vertices = 0, faces = 0;
         StationWork work;
     };
@@ -76,7 +76,7 @@ class LeftCells {
     std::shared_ptr<const CellFolder> kept_; ///< null if results are not kept
     std::string key_;
     BlockFile file_;
-    std::vector<Left> left_; ///< [stations]
+    std::vector<Left> left_; ///< [stations] results
 };
 
 } // namespace facetmill::cells

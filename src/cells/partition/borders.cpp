@@ -8,8 +8,7 @@ namespace facetmill::cells {
 
 namespace {
 
-/// A key that several leaves have. It has no padding bytes, because kept files must depend on the mesh
-/// alone.
+/// A key that several leaves have. It has no padding bytes, because kept files must depend only on the mesh.
 struct Shared {
     std::uint64_t key;
     std::uint64_t depth;

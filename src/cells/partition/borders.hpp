@@ -15,12 +15,12 @@ class Borders {
     /// Replaces a depth in the key of a point that only a single leaf has.
     static constexpr std::uint8_t inner = UINT8_MAX;
 
-    /// keys_of(leaf): its distinct keys. estimate: the number of keys of all leaves together. memory: bytes
-    /// for the whole process. Throws output (E-WRITE, E-SPACE, E-SCRATCH).
+    /// keys_of(leaf): the leaf's distinct keys. estimate: the total number of keys of all leaves. memory:
+    /// bytes for the whole process. Throws an output error (E-WRITE, E-SPACE, E-SCRATCH).
     Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
             std::uint64_t estimate, const std::function<std::vector<std::uint64_t>(std::uint32_t)>& keys_of);
 
-    /// The same for keys that are numbers. leaf_of: see NumberOwners::leaves.
+    /// Finds borders for keys that are numbers. leaf_of: see NumberOwners::leaves.
     Borders(const Tree& tree, const std::filesystem::path& scratch, std::uint64_t memory,
             const NumberOwners& owners, const std::vector<std::uint32_t>& leaf_of);
 
@@ -30,9 +30,9 @@ class Borders {
     /// Moves the data into a named file and reads it from that file afterwards: see SpillFile::stored.
     void store(const std::filesystem::path& file, bool sync, std::vector<Block>& blocks);
 
-    std::uint64_t count() const { return count_; } ///< distinct keys
-    /// For keys of the leaf: the depth of the lowest common node of all leaves with the key, or inner.
-    /// Thread-safe. Throws output (E-SCRATCH).
+    std::uint64_t count() const { return count_; } ///< number of distinct keys
+    /// The depth, for each key of the leaf, of the lowest common node of all leaves with the key, or inner.
+    /// Thread-safe. Throws an output error (E-SCRATCH).
     std::vector<std::uint8_t> homes(std::uint32_t leaf, const std::vector<std::uint64_t>& keys) const;
 
   private:

@@ -12,7 +12,7 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr const char* looked_at = "looked_at"; ///< [vertices] 1: already visited
+constexpr const char* looked_at = "looked_at"; ///< [vertices] 1 if already visited
 
 class RimWalk {
   public:

@@ -21,8 +21,8 @@ class RimVisitor {
 };
 
 /// Walks up the tree. Only faces with a vertex that cells outside the node share move up, with only the
-/// attributes that the visitor added. Throws output (E-SCRATCH); limit (E-MEMORY) if the faces at borders
-/// exceed memory, for example at a vertex of a million faces.
+/// attributes that the visitor added. Throws an output error (E-SCRATCH), and a limit error (E-MEMORY) if
+/// the faces at borders exceed memory, for example at a vertex of a million faces.
 void walk_cell_borders(const Partition& partition, const CellResources& means, RimVisitor& visitor);
 
 } // namespace facetmill::cells

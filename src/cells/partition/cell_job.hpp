@@ -1,5 +1,5 @@
 #pragma once
-// A run in cells as several processes that share a folder of kept cells. The first makes the cells, others
+// A run in cells by several processes that share a folder of kept cells. The first makes the cells, others
 // each simplify a share of them, and a last ordinary run uses their results.
 
 #include <cstddef>
@@ -14,8 +14,8 @@ struct CellJob {
 
 /// A name that distinguishes simplifying jobs.
 [[nodiscard]] std::string name_of(const CellJob& job);
-/// The stamp file of a finished simplifying job. Its stations depend on the mesh and the number of jobs
-/// alone.
+/// The stamp file of a finished simplifying job. Its stations depend only on the mesh and the number of
+/// jobs.
 [[nodiscard]] std::string stamp_of(const CellJob& job);
 
 } // namespace facetmill::cells

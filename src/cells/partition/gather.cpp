@@ -32,7 +32,7 @@ void sort_vertices(Cell& cell) {
         if (a.domain != Domain::face) a.select(order);
 }
 
-/// Throws limit (E-MEMORY).
+/// Throws a limit error (E-MEMORY).
 void require_memory_for(std::uint64_t faces, const CellResources& means) {
     if (memory_in_core(faces) > means.memory)
         throw out_of_memory(fmt::format("what is kept has more than {} triangles, which need {}; --memory "

@@ -78,7 +78,7 @@ class PartitionKeeper {
         if (auto taken = take(why)) {
             folder_.tell(fmt::format("{} reused from '{}'", counted(taken->tree().leaves.size(), "cell"),
                                      folder_.path().string()));
-            if (means_.job && means_.job->makes_cells()) // must be newer than the inputs
+            if (means_.job && means_.job->makes_cells()) // the time must be newer than the inputs
                 for (const char* name : kept_files) folder_.touch(name);
             return taken;
         }
@@ -181,7 +181,7 @@ class PartitionKeeper {
                                                                  SpillFile(opened(borders_file), borders))});
     }
 
-    /// Throws output (E-WRITE) if the file is missing.
+    /// Throws an output error (E-WRITE) if the file is missing.
     std::size_t count_damaged(const char* name, const std::vector<Block>& blocks) const {
         const BlockFile file(folder_.file(name), BlockFile::Named::as_it_is);
         return static_cast<std::size_t>(std::count_if(
@@ -190,7 +190,7 @@ class PartitionKeeper {
 
     std::unique_ptr<Partition> make() {
         const auto written = folder_.time_of(manifest_file);
-        knew_inputs_ = false; // they are read
+        knew_inputs_ = false; // the inputs are read
         for (const std::string& name : folder_.names(manifest_file)) folder_.remove(name);
         auto partition = std::make_unique<Partition>(source_, means_, most_);
         std::vector<Block> records, borders;
@@ -222,7 +222,8 @@ class PartitionKeeper {
         const std::string text = manifest.dump(1) + "\n";
         folder_.write(manifest_file, {std::as_bytes(std::span(text))});
         if (!means_.job &&
-            manifest == same_origin_) // a workflow must not redo the results that others made of these cells
+            manifest ==
+                same_origin_) // prevents a workflow from redoing results that others made from these cells
             for (const char* name : kept_files) folder_.set_time(name, written);
         return partition;
     }

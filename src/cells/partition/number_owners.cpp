@@ -8,7 +8,7 @@
 namespace facetmill::cells {
 
 std::uint64_t buckets_of_keys(std::uint64_t estimate, std::uint64_t memory) {
-    const std::uint64_t size = estimate * 2 * sizeof(Owned); // including shared keys
+    const std::uint64_t size = estimate * 2 * sizeof(Owned); // size including shared keys
     return 1 + size / std::max<std::uint64_t>(1, memory / 8);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// The lists of faces that contain each vertex, for numbered vertices; recorded while the faces are
-// distributed to lists.
+// Records the lists of faces that contain each numbered vertex, while the faces are distributed to lists.
 
 #include "cells/storage/block_file.hpp"
 
@@ -33,7 +32,7 @@ class NumberOwners {
         return numbers * sizeof(std::uint32_t) <= std::max(memory / 6, third - std::min(third, dividing));
     }
     /// For numbers below `numbers`. buckets: see buckets_of_keys. memory: bytes for the whole process.
-    /// Throws output (E-WRITE, E-SPACE).
+    /// Throws an output error (E-WRITE, E-SPACE).
     NumberOwners(std::uint64_t numbers, const std::filesystem::path& scratch, std::uint64_t buckets,
                  std::uint64_t memory);
     /// Records that a face of the list has the number.
@@ -48,10 +47,10 @@ class NumberOwners {
     void add_another(std::uint32_t number, std::uint32_t list);
     void finish() { others_.flush(); }
 
-    std::uint64_t count() const; ///< numbers in at least one list
+    std::uint64_t count() const; ///< the count of numbers in at least one list
     std::size_t buckets() const { return others_.lists(); }
-    /// The leaves of the bucket's numbers that several lists have, distinct and sorted. leaf_of: [lists] the
-    /// leaf of the list, or nobody.
+    /// The distinct leaves, sorted, of those numbers in the bucket that several lists have. leaf_of: [lists]
+    /// the leaf of the list, or nobody.
     std::vector<Owned> leaves(std::size_t bucket, const std::vector<std::uint32_t>& leaf_of) const;
 
   private:
@@ -60,7 +59,7 @@ class NumberOwners {
     };
     std::vector<std::uint32_t> first_; ///< [numbers] a list with the number
     std::vector<Other> latest_;        ///< recently added entries, to avoid most duplicates
-    SpillFile others_;                 ///< by bucket
+    SpillFile others_;                 ///< further entries by bucket
 };
 
 } // namespace facetmill::cells

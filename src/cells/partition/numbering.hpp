@@ -14,12 +14,12 @@ class Numbering {
     explicit Numbering(const Tree& tree) : tree_(tree) {}
 
     struct Numbers {
-        std::vector<std::uint64_t> of; ///< [vertices]
+        std::vector<std::uint64_t> of; ///< [vertices] numbers
         std::vector<Index> fresh;      ///< vertices new to all cells so far, ascending: consecutive numbers
     };
     /// The cell must belong to the next leaf.
     Numbers next(const Cell& cell);
-    std::uint64_t count() const { return count_; } ///< so far
+    std::uint64_t count() const { return count_; } ///< number of vertices so far
 
   private:
     struct Vertex {
@@ -34,7 +34,8 @@ class Numbering {
     const Tree& tree_;
     std::uint32_t leaf_ = 0;
     std::uint64_t count_ = 0;
-    std::vector<std::unordered_map<Vertex, std::uint64_t, Hash>> known_; ///< by the depth of their home
+    std::vector<std::unordered_map<Vertex, std::uint64_t, Hash>>
+        known_; ///< shared vertices by the depth of their home
 };
 
 } // namespace facetmill::cells

@@ -18,7 +18,7 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr std::uint32_t resolution = 128; // of the grid: 2 million cells, 8 MB
+constexpr std::uint32_t resolution = 128; // resolution of the grid: 2 million cells, 8 MB
 
 } // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
-// A mesh of any size as cells on disk, and the vertices that cells share. A k-d tree over face centres
-// assigns whole faces to cells, so no face is cut and T-junctions cannot occur.
+// Stores a mesh of any size as cells on disk, with the vertices that cells share. A k-d tree over face
+// centres assigns whole faces to cells, so no face is cut and T-junctions cannot occur.
 
 #include "cells/partition/borders.hpp"
 #include "cells/partition/cell_job.hpp"
@@ -16,8 +16,9 @@ struct CellResources {
     std::uint64_t memory = 0; ///< bytes, for the whole process
     /// The folder of kept cells; null: cells are temporary.
     std::shared_ptr<const CellFolder> kept{};
-    std::string key{};            ///< of the steps so far: the program, inputs and options, 64 digits
-    std::optional<CellJob> job{}; ///< none: the whole work; else other processes do the rest
+    std::string key{}; ///< key of the steps so far (the program, inputs and options), 64 digits
+    std::optional<CellJob>
+        job{}; ///< empty: this process does all work; otherwise other processes do the rest
 };
 
 /// A part of a mesh. Name and position identify vertices that it shares with other parts.
@@ -44,7 +45,7 @@ class Partition {
     struct Stored {
         Tree tree;
         std::uint64_t faces = 0;
-        SpillFile records; ///< [leaves]
+        SpillFile records; ///< [leaves] records
         std::unique_ptr<Borders> borders;
     };
     Partition(std::shared_ptr<FaceSource> source, Stored stored);
@@ -60,10 +61,10 @@ class Partition {
     std::uint64_t faces_of(std::uint32_t leaf) const {
         return records_.size(list_[leaf]) / source_->record_size();
     }
-    std::uint64_t vertices() const { return borders_->count(); } ///< used by faces
-    /// The faces of a leaf as the source's records. Thread-safe. Throws output (E-SCRATCH).
+    std::uint64_t vertices() const { return borders_->count(); } ///< number of vertices that faces use
+    /// The faces of a leaf as the source's records. Thread-safe. Throws an output error (E-SCRATCH).
     io::Bytes records(std::uint32_t leaf) const { return records_.read(list_[leaf]); }
-    /// Thread-safe. Throws output (E-SCRATCH).
+    /// Thread-safe. Throws an output error (E-SCRATCH).
     Cell cell(std::uint32_t leaf) const;
 
   private:
@@ -80,12 +81,13 @@ class Partition {
     std::shared_ptr<FaceSource> source_;
     Tree tree_;
     std::uint64_t faces_ = 0;
-    SpillFile records_;                ///< by list
+    SpillFile records_;                ///< records by list
     std::vector<std::size_t> list_;    ///< [leaves] their lists in records_
-    std::unique_ptr<Borders> borders_; ///< by names of vertices
+    std::unique_ptr<Borders> borders_; ///< borders by vertex names
 };
 
-/// Joins the cells and merges the vertices that they share. depth: of the node that they form together.
+/// Joins the cells and merges the vertices that they share. depth: the depth of the node that they form
+/// together.
 [[nodiscard]] Cell joined(std::vector<Cell> cells, std::uint8_t depth);
 
 /// The cell after processing: the mesh, with the names and homes of its shared vertices. sources: [vertices

@@ -26,7 +26,7 @@ void Tree::make_leaf(std::uint32_t node) {
 
 bool Tree::restore(const std::vector<std::uint8_t>& depths) {
     *this = {};
-    std::vector<std::uint32_t> waiting{no_node}; // parents of the nodes to come; the next is last
+    std::vector<std::uint32_t> waiting{no_node}; // parents of future nodes; the next is last
     for (const std::uint8_t depth : depths) {
         if (waiting.empty()) return false;
         std::uint32_t node = add(waiting.back());
@@ -70,7 +70,7 @@ Grid::Grid(const Box& bounds, std::uint32_t resolution) : origin_(bounds.min) {
 std::size_t Grid::cell_of(const Vec3& p) const {
     std::array<std::size_t, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = (p[axis] - origin_[axis]) * per_unit_; // NaN and values outside clamp
+        const double x = (p[axis] - origin_[axis]) * per_unit_; // clamps NaN and values outside
         at[axis] = x >= size_[axis] - 1 ? size_[axis] - 1 : x > 0 ? static_cast<std::size_t>(x) : 0;
     }
     return (at[2] * size_[1] + at[1]) * size_[0] + at[0];

@@ -1,5 +1,5 @@
 #pragma once
-// A k-d tree by count: each split puts about half of the faces on either side, until no leaf exceeds a given
+// A k-d tree by count. Each split puts about half of the faces on either side, until no leaf exceeds a given
 // number.
 
 #include "base/math/vec.hpp"
@@ -11,13 +11,13 @@
 
 namespace facetmill::cells {
 
-/// Nodes in preorder, the lower child first; the root is number 0.
+/// A tree of nodes in preorder, with the lower child first. The root has number 0.
 struct Tree {
     static constexpr std::uint32_t no_node = UINT32_MAX;
     struct Node {
-        std::uint32_t child[2] = {no_node, no_node}; ///< both or none
+        std::uint32_t child[2] = {no_node, no_node}; ///< the children: both or none
         std::uint32_t parent = no_node;
-        std::uint32_t leaf = no_node; ///< its number in leaf order
+        std::uint32_t leaf = no_node; ///< the leaf's number in leaf order
         std::uint8_t depth = 0;       ///< 0: the root
         bool is_leaf() const { return child[0] == no_node; }
     };
@@ -56,7 +56,7 @@ class Grid {
     std::uint32_t leaf_of(std::size_t cell) const { return counts_[cell]; }
 
   private:
-    using Range = std::array<std::uint32_t, 6>; ///< first and end along x, y, z
+    using Range = std::array<std::uint32_t, 6>; ///< first and end positions along x, y and z
     std::vector<std::uint64_t> slabs(const Range& r, std::size_t axis) const;
     void split(Tree& tree, std::uint32_t node, const Range& range, std::uint64_t all, std::uint64_t most);
     void label(const Range& range, std::uint32_t leaf);

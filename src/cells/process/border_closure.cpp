@@ -58,7 +58,7 @@ class CollarMaker {
         const std::vector<Index> faces = corner_faces(mesh_);
         DisjointSets arcs(mesh_.corner_count());
         const auto after = [&](Index c) { return next_corner(mesh_, faces[c], c); };
-        std::vector<Index> at_frame; // of edges: the corner in the rest
+        std::vector<Index> at_frame; // corners of the edges in the rest
         for (Index e = 0; e < edges.size(); ++e) {
             const auto corners = edges.corners_of(e);
             if (corners.size() != 2) continue;
@@ -143,9 +143,9 @@ class CollarMaker {
     Index count_;
     double size_ = 0;
     std::vector<FrameEdge> frame_;
-    std::unordered_map<Index, std::size_t> starting_; ///< by arc_from
+    std::unordered_map<Index, std::size_t> starting_; ///< edges by arc_from
     std::unordered_map<Index, Index> point_of_arc_;
-    std::map<std::uint32_t, std::vector<Cap>> caps_; ///< by sheet
+    std::map<std::uint32_t, std::vector<Cap>> caps_; ///< caps by sheet
     Collar border_closure_;
 };
 

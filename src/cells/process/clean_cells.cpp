@@ -26,18 +26,18 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr const char *sheet_name = "sheet",        ///< [faces] their component
-    *source_name = "facetmill_source",             ///< [vertices] their number in the gathered mesh
-        *border_closure_name = "facetmill_collar"; ///< [faces] 1: belongs to the collar
+constexpr const char *sheet_name = "sheet",        ///< [faces] component number
+    *source_name = "facetmill_source",             ///< [vertices] number in the gathered mesh
+        *border_closure_name = "facetmill_collar"; ///< [faces] 1 for faces of the collar
 constexpr std::uint32_t no_sheet = UINT32_MAX;
 
 /// A set of positions by their hashes. A hash collision only causes a needless check.
 class PlaceSet {
   public:
-    /// most: bytes. Throws limit (E-MEMORY) beyond these.
+    /// most: the limit in bytes, beyond which it throws a limit error (E-MEMORY).
     explicit PlaceSet(std::uint64_t most) : most_(most) {}
     void add(const Vec3& p) {
-        constexpr std::uint64_t bytes_of_entry = 56; // an allocated node, and buckets
+        constexpr std::uint64_t bytes_of_entry = 56; // memory of an allocated node and its buckets
         names_.insert(name_of_place(p));
         if (names_.size() * bytes_of_entry > most_)
             throw out_of_memory(
@@ -58,7 +58,7 @@ class PlaceSet {
 class UnsoundPlaces final : public RimVisitor {
   public:
     UnsoundPlaces(PlaceSet& places, const Transform& transform) : places_(places), transform_(transform) {}
-    double area = 0; ///< after the transform
+    double area = 0; ///< area after the transform
     void read(Cell& cell) override { area += surface_size(cell.mesh, transform_, false).area; }
     void look(const Mesh& mesh, const std::vector<Turn>& turns) override {
         std::vector<std::uint8_t> unsound(mesh.vertex_count(), 0);
@@ -88,7 +88,7 @@ class UnsoundPlaces final : public RimVisitor {
 /// Faces as records of a numbered source.
 struct GatheredFaces {
     std::vector<std::uint32_t> numbers;
-    std::vector<std::uint32_t> sheets; ///< no_sheet: at an unsound position
+    std::vector<std::uint32_t> sheets; ///< no_sheet for faces at an unsound position
     io::Bytes records;
 };
 
@@ -99,7 +99,7 @@ class RestOfMesh final : public RimVisitor {
         : partition_(partition), unsound_(unsound), around_(around) {}
 
     GatheredFaces gathered;
-    Box bounds; ///< of the faces away from unsound positions
+    Box bounds; ///< bounds of the faces away from unsound positions
     void finish() {
         for (std::uint32_t& sheet : gathered.sheets)
             if (sheet != no_sheet) sheet = sheets_.find(sheet);
@@ -113,7 +113,8 @@ class RestOfMesh final : public RimVisitor {
             around[v] = around_.has(mesh.positions[v]);
         }
         std::vector<Index> rest;
-        std::vector<std::uint8_t> beside(mesh.face_count(), 0); // of the rest: has a vertex in around_
+        std::vector<std::uint8_t> beside(mesh.face_count(),
+                                         0); // [faces] true for faces of the rest with a vertex in around_
         for (Index f = 0; f < mesh.face_count(); ++f) {
             bool in_part = false;
             for (const Index v : mesh.face_wedges(f)) {
@@ -212,7 +213,7 @@ class CellCleaning {
         CleanResult result = unsound_.empty() ? untouched(attributes) : cleaned_part();
         const bool replaces = result.counts.total() > 0 || spared_ > 0;
         const std::size_t welded =
-            before_ - placed_->vertices() - spared_; // vertices where clean had no decision to make
+            before_ - placed_->vertices() - spared_; // vertices that needed no decision of clean
         result.counts.welded_vertices += welded;
         if (result.counts.welded_vertices > 0 && !attributes.empty())
             refuse(
@@ -390,14 +391,14 @@ class CellCleaning {
     std::uint64_t most_;
     std::shared_ptr<FaceSource> plain_, numbered_;
     std::uint64_t before_;              ///< vertices used by faces
-    std::unique_ptr<Partition> placed_; ///< of the numbered source
+    std::unique_ptr<Partition> placed_; ///< partition of the numbered source
     PlaceSet unsound_, around_;
     GatheredFaces faces_;
     Piece whole_;            ///< the gathered faces
     std::size_t spared_ = 0; ///< vertices minus positions at unsound positions, which clean counts
     Box bounds_;
-    double area_ = 0;         ///< after the transform, of the faces cleaned so far
-    double unsound_area_ = 0; ///< of the faces at unsound positions, before cleaning
+    double area_ = 0;         ///< area, after the transform, of the faces cleaned so far
+    double unsound_area_ = 0; ///< area of the faces at unsound positions, before cleaning
 };
 
 } // namespace

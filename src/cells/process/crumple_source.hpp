@@ -9,7 +9,7 @@ namespace facetmill::cells {
 
 /// The source's faces with vertices displaced by crumple. Noise depends on positions, so each cell computes
 /// the same values independently. direction and boundary must be free and the mask empty. Drops normals and
-/// tangents, which need all faces of a vertex. Reads the source once. Throws as crumple.
+/// tangents, which need all faces of a vertex. Reads the source once. Throws the errors of crumple.
 [[nodiscard]] std::shared_ptr<FaceSource> crumple_source(std::shared_ptr<FaceSource> still,
                                                          const CrumpleSettings& settings);
 

@@ -51,7 +51,7 @@ class CellInspection final : RimVisitor {
             positions.push_back(transform_.point(p));
             found_.bounds.add(positions.back());
         }
-        double area = 0, volume = 0; // of the cell: summing per cell adds small terms to small terms
+        double area = 0, volume = 0; // sums of the cell, which add small terms to small terms
         for (Index f = 0; f < mesh.face_count(); ++f) {
             const Vec3 &a = positions[mesh.vertex(3 * f)], &b = positions[mesh.vertex(3 * f + 1)],
                        &c = positions[mesh.vertex(3 * f + 2)];
@@ -124,9 +124,9 @@ class CellInspection final : RimVisitor {
     Vec3 middle_;
     Properties found_;
     Connectivity sums_;
-    DisjointSets sets_; ///< of connected faces, numbered in the order of discovery
+    DisjointSets sets_; ///< sets of connected faces, numbered in the order of discovery
     std::int64_t inside_sets_ = 0;
-    double volume_ = 0; ///< six times
+    double volume_ = 0; ///< six times the volume
 };
 
 } // namespace

@@ -15,7 +15,7 @@ struct CellMeasures {
 
 /// The measures of the transformed cells. Counts, minima, maxima and medians equal the mesh in memory. Sums
 /// are in cell order, so their last digits may differ, and so may the curvature at a vertex. Writes all
-/// numbers to the scratch folder: about 70 bytes per triangle. Throws as inspect_cells.
+/// numbers to the scratch folder: about 70 bytes per triangle. Throws the errors of inspect_cells.
 [[nodiscard]] CellMeasures measure_cells(const Partition& partition, const Transform& transform,
                                          const CellResources& means, const EdgeSettings& settings);
 

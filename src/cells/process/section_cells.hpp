@@ -6,14 +6,14 @@
 
 namespace facetmill::cells {
 
-/// As extent_along, for cells.
+/// Like extent_along, for cells.
 [[nodiscard]] Extent extent_of_cells(const Partition& partition, const Plane& plane,
                                      const Transform& to_world);
 
 /// The faces that the planes may cut, as a single mesh; section() gives the same result for it as for all
 /// faces. Faces and vertices keep the order of the source, so that contours begin at the same points. For
 /// STL and glTF the vertex order may differ, which changes the last digits of points. Reads the source once.
-/// Throws limit (E-MEMORY) if the faces exceed memory.
+/// Throws a limit error (E-MEMORY) if the faces exceed memory.
 [[nodiscard]] Mesh faces_at_planes(const Partition& partition, const SectionSettings& settings,
                                    const CellResources& means);
 

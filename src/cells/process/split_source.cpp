@@ -27,13 +27,13 @@ Mesh cut(const Mesh& mesh, const FaceCut& how) {
                          : grid_split(mesh, how.grid).mesh;
 }
 
-/// Adds the names of new vertices. They derive from the names of the edge's ends, or of the face, each with
-/// a number.
+/// Adds the names of new vertices. A new name derives from the names of the edge's ends, or from the face's
+/// name, and a number.
 void name_new_vertices(const Mesh& whole, const FaceCut& how, const std::vector<std::uint32_t>& numbers,
                        std::vector<std::uint64_t>& names) {
     const std::size_t points = how.grid == 0 ? 1 : static_cast<std::size_t>(how.grid) - 1;
     for (const auto& [a, b] : build_edges(whole).edges) {
-        const bool up = names[a] < names[b]; // from the lower name, as in every cell
+        const bool up = names[a] < names[b]; // runs from the lower name, as in every cell
         const std::uint64_t low = names[up ? a : b], high = names[up ? b : a];
         const std::uint64_t edge = hashed(hashed(how.pieces(), low), high);
         for (std::size_t i = 0; i < points; ++i)
@@ -60,7 +60,7 @@ class SplitSource final : public FaceSource {
         constexpr std::size_t pieces_at_once = 1 << 15;
         const std::size_t at_once = std::max<std::size_t>(1, pieces_at_once / how_.pieces());
         io::Bytes waiting;
-        std::uint32_t number = 0; // of the first waiting face
+        std::uint32_t number = 0; // number of the first waiting face
         whole_->each(
             [&](const Vec3&, io::Span record) {
                 waiting.insert(waiting.end(), record.begin(), record.end());
@@ -85,7 +85,7 @@ class SplitSource final : public FaceSource {
     }
 
     Piece piece(io::Span records) const override {
-        io::Bytes parents; // without consecutive repeats
+        io::Bytes parents; // parent records, without consecutive repeats
         std::vector<std::uint32_t> numbers;
         std::vector<Index> faces;
         for (io::Span last; !records.empty(); records = records.subspan(head_ + 1)) {
@@ -134,7 +134,7 @@ class SplitSource final : public FaceSource {
 
     std::shared_ptr<FaceSource> whole_;
     FaceCut how_;
-    std::size_t size_, head_; ///< record sizes: of the whole, and with the face's number
+    std::size_t size_, head_; ///< size of the source's record, and size with the face's number
 };
 
 class SpotCount final : public RimVisitor {

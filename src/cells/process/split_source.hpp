@@ -6,7 +6,7 @@
 
 namespace facetmill::cells {
 
-/// The cut, the same for all faces.
+/// The cut, which is the same for all faces.
 struct FaceCut {
     /// Pieces per edge, as in grid_split. 0: SplitMethod::midpoint, whose pieces have another order than a
     /// grid of 2.
@@ -17,17 +17,17 @@ struct FaceCut {
     }
 };
 
-/// The pieces of the source's faces, in order, with attributes: the same as a single pass of split. A new
+/// The pieces of the source's faces, in order, with attributes, as after a single pass of split. A new
 /// vertex is named after the ends of its edge, so cells agree on shared vertices. Returns the source itself
 /// if the grid is 1. The grid must be at most FaceCut::most.
 [[nodiscard]] std::shared_ptr<FaceSource> split_source(std::shared_ptr<FaceSource> whole,
                                                        const FaceCut& how = {});
 
-/// Throws limit (E-LIMIT) for more faces than formats can count.
+/// Throws a limit error (E-LIMIT) for more faces than formats can count.
 void require_countable(const char* stage, double faces, const char* hint);
 
 /// Spots where faces share two edges, so that their new edges coincide: SplitResult::shared of a pass.
-/// Throws as walk_cell_borders.
+/// Throws the errors of walk_cell_borders.
 [[nodiscard]] std::size_t shared_spots(const Partition& partition, const CellResources& means);
 
 /// The longest edge and the smallest angle of all transformed cells.

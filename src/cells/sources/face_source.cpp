@@ -21,7 +21,7 @@ namespace {
 
 enum class Format { none, ply, stl, obj, off, gltf };
 
-constexpr std::size_t mapped_from = std::size_t{1} << 16; ///< bytes
+constexpr std::size_t mapped_from = std::size_t{1} << 16; ///< size in bytes
 
 [[noreturn]] void changed_while_read(const io::Input& input) {
     throw Error(ErrorKind::malformed, "E-CHANGED",
@@ -40,7 +40,7 @@ bool is_packed(const std::filesystem::path& path) {
     return io::packing_of(first) != io::Packing::none;
 }
 
-/// The format that io::read_scene would choose: by content if certain, else by the suffix.
+/// The format that io::read_scene would choose: by content if certain, otherwise by the suffix.
 Format format_of(const io::Input& input) {
     const io::Codec* codec = io::sure_codec(input);
     if (!codec) codec = io::codec_for(input.path());
@@ -133,7 +133,7 @@ struct RowMeans {
     bool or_none;       ///< see stl_rows
 };
 
-/// Opens files that are first converted to rows. Null: see stl_rows.
+/// Opens files that are first converted to rows. May return null, see stl_rows.
 std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, const io::ReadSettings& settings,
                                       const RowMeans& means, FaceSource::Contents contents) {
     std::vector<std::unique_ptr<RowReader>> readers;
@@ -147,7 +147,8 @@ std::unique_ptr<FaceSource> open_rows(const std::vector<io::Input>& inputs, cons
     RowWriter writer(means.scratch, extra, single ? io::ply::Type::float32 : io::ply::Type::float64);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         take_convention(inputs[i], settings, contents);
-        const FaceSource::File file = open_again(inputs[i]); // closed after reading: files may be many
+        const FaceSource::File file =
+            open_again(inputs[i]); // closed after reading, because many files may be open
         contents.files.push_back({inputs[i], readers[i]->read(file.file, writer, !extra.empty()), nullptr});
         if (contents.files.back().sha256.empty()) return nullptr;
         require_as_opened({file});
@@ -214,7 +215,8 @@ std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
 }
 
 std::uint64_t estimated_faces(const std::filesystem::path& path) {
-    constexpr std::uint64_t text_bytes = 30, packed_bytes = 8; // per face, in OBJ; in gzip and Draco
+    constexpr std::uint64_t text_bytes = 30,
+                            packed_bytes = 8; // bytes per face in OBJ text, and in gzip and Draco
     constexpr std::uint64_t stl_text_bytes = 200;
     std::error_code ignored;
     if (path == "-" || io::is_stream(path)) return 0;

@@ -47,7 +47,7 @@ std::optional<std::string> why_primitive_not(const Json& json, const gltf::JsonC
     if (const auto extensions = primitive.find("extensions"))
         for (const char* name : {"KHR_draco_mesh_compression", "EXT_mesh_manifold"})
             if (extensions->find(name)) return fmt::format("{} uses {}", primitive.path(), name);
-    if (!gltf::makes_triangles(primitive)) return {}; // it is skipped
+    if (!gltf::makes_triangles(primitive)) return {}; // the primitive is skipped
     if (primitive.natural_or("mode", triangle_list) != triangle_list)
         return fmt::format("{} has triangle strips or fans", primitive.path());
     const gltf::JsonCursor position = primitive.at("attributes").at("POSITION");
@@ -70,12 +70,12 @@ void each_primitive(const Json& json, Take&& take) {
     }
 }
 
-bool any_lines(const Json& json) {
+bool any(const Json& json, gltf::Drawn kind) {
     for (const gltf::Placement& placement : gltf::placements(json, gltf::node_frames(json))) {
         const gltf::JsonCursor primitives =
             gltf::item(json, "meshes", static_cast<std::size_t>(placement.mesh)).at("primitives");
         for (std::size_t i = 0; i < primitives.size(); ++i)
-            if (gltf::makes_lines(primitives.at(i))) return true;
+            if (gltf::kind_of(primitives.at(i)) == kind) return true;
     }
     return false;
 }
@@ -104,7 +104,8 @@ class GltfReader final : public RowReader {
                 if (primitive.find("material")) attributes.insert("materials");
             });
             dropped.assign(attributes.begin(), attributes.end());
-            if (any_lines(json_)) dropped.emplace_back("lines");
+            if (any(json_, gltf::Drawn::lines)) dropped.emplace_back("lines");
+            if (any(json_, gltf::Drawn::points)) dropped.emplace_back("points");
             for (auto& [path, buffer] : buffers_) {
                 buffer.sha256 = digest_of(buffer.input, *buffer.file);
                 require_as_opened({buffer});
@@ -237,7 +238,7 @@ class GltfReader final : public RowReader {
     Identity identity_;
     gltf::Chunks chunks_;
     Json json_;
-    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< next to the document
+    std::map<std::filesystem::path, FaceSource::File> buffers_; ///< buffer files next to the document
 };
 
 } // namespace

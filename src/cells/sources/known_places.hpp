@@ -1,6 +1,6 @@
 #pragma once
-// Numbers of recent positions within a memory limit. Files that repeat each vertex for each of its faces
-// thus get most vertices only once.
+// Numbers of recent positions within a memory limit. So files that repeat each vertex for each of its faces
+// get most vertices only once.
 
 #include "base/math/random.hpp"
 #include "mesh/mesh.hpp"
@@ -14,7 +14,7 @@ using PlaceBits = std::array<std::uint32_t, 3>;
 
 class KnownPositions {
   public:
-    /// memory: bytes.
+    /// memory: the limit in bytes.
     explicit KnownPositions(std::size_t memory) : memory_(memory), table_(least) {}
 
     /// The number of the position, or `next` for a new position. When memory runs out, the table is cleared,
@@ -62,7 +62,7 @@ class KnownPositions {
     }
 
     std::size_t memory_, count_ = 0;
-    std::vector<Entry> table_; ///< a power of two
+    std::vector<Entry> table_; ///< size is a power of two
     bool forgot_ = false;
 };
 

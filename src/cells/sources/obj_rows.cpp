@@ -3,25 +3,28 @@
 
 #include "cells/sources/rows.hpp"
 #include "cells/sources/text_window.hpp"
+#include "io/obj/obj.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace facetmill::cells {
 
 namespace {
 
-constexpr std::size_t with_colour = 6; ///< numbers of a vertex
+constexpr std::size_t with_colour = 6; ///< count of numbers in a vertex with a colour
 constexpr std::size_t longest_word = 20;
 
 /// The kind and data of a statement.
 struct Statement {
     enum class Kind { other, vertex, face };
     Kind kind = Kind::other;
-    std::string word; ///< of others
+    std::string word; ///< keyword of other statements
     std::array<double, 8> numbers{};
-    std::size_t count = 0;             ///< of numbers
+    std::size_t count = 0;             ///< count of numbers
     std::vector<std::int64_t> corners; ///< as written: from 1; negative: relative to the last vertex
     std::int64_t line = 0;
 };
@@ -33,15 +36,26 @@ class ObjReader final : public RowReader {
         io::Text text(
             io::as_text(input_.bytes().first(std::min<std::size_t>(input_.bytes().size(), 1 << 20))),
             input_.name(), "E-OBJ", '#');
+        bool is_first = true, whole = true;
+        double largest = 0;
         do {
             if (text.word_on_line() != "v") continue;
             std::size_t count = 0;
-            while (!text.word_on_line().empty()) ++count;
-            if (count >= with_colour)
+            for (std::string_view word = text.word_on_line(); !word.empty(); word = text.word_on_line()) {
+                const char* at = word.data();
+                double number = 0;
+                if (++count <= 3 || count > with_colour ||
+                    !io::scan_real(at, word.data() + word.size(), number))
+                    continue;
+                largest = std::max(largest, number);
+                whole = whole && number == std::floor(number);
+            }
+            if (is_first && count < with_colour) return;
+            if (std::exchange(is_first, false))
                 for (const char* name : {"red", "green", "blue"})
                     extra.push_back({name, io::ply::Type::float32});
-            return;
         } while (text.next_line());
+        if (io::obj::count_to_255(largest, whole)) of_one_ = 255;
     }
 
     std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out, bool with_extra) override {
@@ -49,7 +63,7 @@ class ObjReader final : public RowReader {
         TextWindow window(*file, 0, input_.bytes().size(), input_.name(), "E-OBJ", '#', &sum);
         out.begin_group(identity_);
         const std::uint64_t base = out.vertices();
-        std::int64_t highest = 0; // of the vertices that faces use, from 1
+        std::int64_t highest = 0; // highest vertex that faces use, from 1
         Statement s;
         while (window.left() > 0) {
             window.item([&](io::Text& text) { parse(text, s); });
@@ -90,7 +104,7 @@ class ObjReader final : public RowReader {
         } else {
             s.word.assign(word.substr(0, longest_word));
             while (!text.word_on_line().empty()) {
-            } // including continuation lines
+            } // includes continuation lines
         }
         text.next_line();
     }
@@ -128,8 +142,10 @@ class ObjReader final : public RowReader {
 
     void vertex(RowWriter& out, const Statement& s, bool coloured) {
         std::array<float, 3> colour{1, 1, 1}; // the default without a colour in the file
-        for (std::size_t c = 0; s.count >= with_colour && c < 3; ++c)
+        for (std::size_t c = 0; s.count >= with_colour && c < 3; ++c) {
             colour[c] = static_cast<float>(s.numbers[3 + c]);
+            if (of_one_ > 1) colour[c] = std::min(colour[c] / of_one_, 1.0F);
+        }
         late_colours_ |= s.count >= with_colour && extra.empty();
         out.vertex({s.numbers[0], s.numbers[1], s.numbers[2]},
                    coloured ? std::as_bytes(std::span(colour)) : io::Span{});
@@ -172,6 +188,7 @@ class ObjReader final : public RowReader {
     std::vector<std::uint32_t> rows_;
     /// Contents of the file that rows do not hold.
     bool uvs_ = false, normals_ = false, materials_ = false, lines_ = false, late_colours_ = false;
+    float of_one_ = 1; ///< the number of a full colour in the file, from its beginning
     std::size_t groups_ = 0;
 };
 

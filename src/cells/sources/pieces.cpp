@@ -46,7 +46,7 @@ Vec3 centre_of(const Mesh& triangles, std::size_t face) {
 }
 
 void each_batch(FaceSource& source, std::size_t memory, const std::function<void(io::Span)>& use) {
-    constexpr std::size_t at_once = 1 << 15; // faces
+    constexpr std::size_t at_once = 1 << 15; // number of faces
     const std::size_t full = at_once * source.record_size();
     io::Bytes waiting;
     source.each_record(

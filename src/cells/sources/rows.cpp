@@ -178,7 +178,8 @@ void RowWriter::face(std::span<const std::uint32_t> corners) {
 
 namespace {
 
-/// Reads a face packed by RowWriter. last: the previous corner, 0 at first. Throws output (E-SCRATCH).
+/// Reads a face packed by RowWriter. last: the previous corner, 0 at first. Throws an output error
+/// (E-SCRATCH).
 void read_packed_face(const Rows& rows, Stream& faces, std::uint32_t& last,
                       std::vector<std::uint32_t>& corners) {
     const auto next = [&] {
@@ -367,7 +368,7 @@ class RowSource final : public FaceSource {
         own_contents().files.front().sha256 = sum->digest();
     }
 
-    /// Triangulates as a read of the whole file does.
+    /// Triangulates like reading the whole file.
     template <class Give>
     void give_polygon(const std::vector<std::uint32_t>& corners, RecordCache& vertices, Give&& give) const {
         Mesh polygon;
@@ -385,8 +386,8 @@ class RowSource final : public FaceSource {
 
     /// The distinct rows of some corners.
     struct Ranks {
-        std::vector<std::uint32_t> numbers; ///< distinct, ascending
-        std::vector<Index> of;              ///< [corners] into numbers
+        std::vector<std::uint32_t> numbers; ///< distinct row numbers, ascending
+        std::vector<Index> of;              ///< [corners] index in numbers
     };
 
     static Ranks ranks_of(io::Span records) {
@@ -471,7 +472,7 @@ class RowSource final : public FaceSource {
     std::size_t stride_;
     bool is_file_;                      ///< the rows are the first file, which is hashed during reading
     bool scanned_ = false;              ///< set by scan()
-    std::unique_ptr<Sha256> begun_;     ///< after scan(): of the file before its faces
+    std::unique_ptr<Sha256> begun_;     ///< after scan(): digest state of the file before its faces
     std::unique_ptr<RecordCache> held_; ///< after scan(): the vertices, if all fit
     bool by_place_ = false;             ///< some vertices are identified by position
     bool by_use_ = false;               ///< some groups use the order of first use

@@ -12,7 +12,7 @@ namespace facetmill::cells {
 
 /// The condition for two rows to be the same vertex.
 enum class Identity : std::uint8_t {
-    number,         ///< never: each row is a vertex
+    number,         ///< rows are never the same; each row is a vertex
     place_in_group, ///< the same position, in the same group
     place           ///< the same position
 };
@@ -29,9 +29,9 @@ struct Rows {
     std::uint64_t faces_at = 0, faces_end = 0, face_count = 0;
     std::vector<io::ply::Property> vertex;       ///< the fields of a row, including x, y and z; no lists
     std::vector<io::ply::Property> face;         ///< a single list, the corners
-    std::int64_t vertex_line = 0, face_line = 0; ///< of the PLY file, for messages
+    std::int64_t vertex_line = 0, face_line = 0; ///< line numbers in the PLY file, for messages
     bool swap = false;                           ///< whether numbers have the opposite byte order
-    /// The folder of faces packed by RowWriter; none: faces have the form of `face`.
+    /// The folder of faces packed by RowWriter. Empty: faces have the form of `face`.
     std::optional<std::filesystem::path> packed{};
     std::vector<Group> groups; ///< ascending; empty: a single group with Identity::number
 };
@@ -42,7 +42,7 @@ struct Rows {
 /// The offsets of the coordinates in a vertex row.
 class Coordinates {
   public:
-    /// Throws malformed (E-PLY) if a coordinate is missing.
+    /// Throws a malformed-input error (E-PLY) if a coordinate is missing.
     Coordinates(const Rows& rows, const std::string& file);
     Vec3 of(const std::byte* row) const;
 
@@ -56,14 +56,14 @@ class Coordinates {
 inline constexpr const char* not_finite_hint =
     "load: {not_finite: drop} leaves out such vertices and the faces at them; the file is read whole then";
 
-/// The position of a file's vertex; its number is for messages. Throws malformed (E-NAN) if it is not
-/// finite.
+/// The position of a file's vertex; its number is for messages. Throws a malformed-input error (E-NAN) if it
+/// is not finite.
 [[nodiscard]] Vec3 finite_place(const Coordinates& coordinates, const std::byte* row, std::uint64_t number,
                                 const std::string& file);
-/// The corners of the next face; its number is for messages. Throws malformed (E-PLY).
+/// The corners of the next face; its number is for messages. Throws a malformed-input error (E-PLY).
 void read_face(const Rows& rows, const std::string& file, std::uint64_t number, Stream& faces,
                std::vector<std::uint32_t>& corners);
-/// Throws malformed (E-PLY): the file ends within that item of that element.
+/// Throws a malformed-input error (E-PLY): the file ends within this item of this element.
 [[noreturn]] void ends_in(const std::string& file, std::uint64_t bytes, const std::string& element,
                           std::uint64_t item, std::uint64_t count);
 
@@ -75,11 +75,11 @@ class RowWriter {
               io::ply::Type coordinate = io::ply::Type::float64);
     /// Starts a new group of vertices. by_use: see Rows::Group.
     void begin_group(Identity identity, bool by_use = false);
-    /// Use if every position in the group proves to be unique.
+    /// Call it if every position in the group turns out to be unique.
     void identify_by_number() { rows_.groups.back().identity = Identity::number; }
     /// extra: the attribute bytes in the order of the properties, in native byte order.
     void vertex(const Vec3& p, io::Span extra);
-    /// Row numbers, from 0, of rows already written or still to come. Faces of fewer than three corners are
+    /// Adds a face by row numbers from 0. Rows may be written later. Faces of fewer than three corners are
     /// only counted.
     void face(std::span<const std::uint32_t> corners);
 
@@ -95,7 +95,7 @@ class RowWriter {
     std::vector<io::ply::Property> extra_;
     std::size_t extra_size_;
     bool single_;      ///< coordinates are float32
-    io::Bytes packed_; ///< a face
+    io::Bytes packed_; ///< bytes of a packed face
     std::uint32_t last_corner_ = 0;
     ScratchFile vertices_, faces_;
     Box bounds_;
@@ -112,7 +112,7 @@ class RowReader {
     std::vector<std::string> dropped{};                ///< after read: dropped contents, for messages
     std::vector<FaceSource::File> neighbours{};        ///< after read: neighbours that were read
     /// file: the input for reading. with_extra: whether the writer's rows hold `extra`. Returns the file's
-    /// digest; none: see stl_rows. Throws as io::read_scene.
+    /// digest; none: see stl_rows. Throws the errors of io::read_scene.
     virtual std::string read(const std::shared_ptr<const ReadFile>& file, RowWriter& out,
                              bool with_extra) = 0;
 };

@@ -70,7 +70,14 @@ class StlSource final : public FaceSource {
   public:
     StlSource(File file, const io::ReadSettings& settings, Contents contents)
         : FaceSource(std::move(contents)), settings_(settings), file_(file.file),
-          count_(io::stl::promised_triangles(file.input.bytes())) {
+          count_(io::stl::held_triangles(file.input)) {
+        const io::Span all = file.input.bytes();
+        head_.assign(all.begin(), all.begin() + stl_head);
+        // A piece alone may have no coloured triangle.
+        const std::string_view words = io::stl::viscam_words;
+        if (io::stl::colouring_of(file.input) == io::stl::Colouring::viscam)
+            std::memcpy(head_.data() + stl_head - sizeof(std::uint32_t) - words.size(), words.data(),
+                        words.size());
         own_contents().files.push_back(std::move(file));
     }
 
@@ -107,7 +114,7 @@ class StlSource final : public FaceSource {
     }
 
     Piece piece(io::Span records) const override {
-        io::Bytes bytes(stl_head);
+        io::Bytes bytes = head_;
         const auto n = static_cast<std::uint32_t>(records.size() / stl_record);
         std::memcpy(bytes.data() + stl_head - sizeof n, &n, sizeof n);
         bytes.insert(bytes.end(), records.begin(), records.end());
@@ -134,9 +141,10 @@ class StlSource final : public FaceSource {
     io::ReadSettings settings_;
     std::shared_ptr<const ReadFile> file_;
     std::uint64_t count_ = 0;
+    io::Bytes head_; ///< of each piece
 };
 
-/// Text as io/stl/read.cpp reads it.
+/// Reads text like io/stl/read.cpp.
 class StlReader final : public RowReader {
   public:
     StlReader(const io::Input& input, const io::ReadSettings& settings, std::size_t memory, bool or_none)
@@ -213,10 +221,10 @@ class StlReader final : public RowReader {
             facet = same_word(word, "facet");
             if (!facet && !same_word(word, "endsolid")) ahead.expected("'facet' or 'endsolid'");
             if (!facet) {
-                text.next_line(); // the same name, another, or none
+                text.next_line(); // skips the name, which may differ or be missing
                 return;
             }
-            text.rest_of_line(); // the normal
+            text.rest_of_line(); // skips the normal
             expect(text, "outer");
             expect(text, "loop");
             for (Vec3& p : corners) {

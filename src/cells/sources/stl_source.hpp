@@ -6,7 +6,7 @@
 namespace facetmill::cells {
 
 bool is_text_stl(const io::Input& input);
-/// A binary file. Throws as open_faces.
+/// Opens a binary file. Throws the errors of open_faces.
 [[nodiscard]] std::unique_ptr<FaceSource> open_stl(FaceSource::File file, const io::ReadSettings& settings,
                                                    FaceSource::Contents contents);
 

@@ -8,14 +8,14 @@ namespace facetmill::cells {
 
 class TextWindow {
   public:
-    /// From byte `begin`, which is in line `line`, to byte `end`. id, comment: see io::Text. sum: receives
-    /// all bytes from `begin` on; may be null. name must outlive the window.
+    /// Reads from byte `begin`, which is in line `line`, to byte `end`. id, comment: see io::Text. sum:
+    /// receives all bytes from `begin` on; may be null. name must outlive the window.
     TextWindow(const ReadFile& file, std::uint64_t begin, std::uint64_t end, const std::string& name,
                const char* id, char comment, Sha256* sum, std::int64_t line = 1);
 
     /// Calls parse(io::Text&) at the end of the previous item. An item that does not fit the window is
-    /// parsed again, so parse must reset all of its results. Throws as parse; limit (E-SIZE) for an item
-    /// larger than the largest window.
+    /// parsed again, so parse must reset all of its results. Throws the errors of parse, and a limit error
+    /// (E-SIZE) for an item larger than the largest window.
     template <class Parse>
     void item(Parse&& parse) {
         if (text_.left() < low && left_ > 0) move(usual);
@@ -40,7 +40,7 @@ class TextWindow {
     }
     /// Bytes not yet parsed: the rest of the file.
     std::uint64_t left() const { return text_.left() + left_; }
-    const io::Text& text() const { return text_; } ///< for line numbers and messages
+    const io::Text& text() const { return text_; } ///< the text, for line numbers and messages
 
   private:
     static constexpr std::size_t usual = std::size_t{1} << 20, low = usual / 8;
@@ -50,7 +50,7 @@ class TextWindow {
     const char* id_;
     char comment_;
     Stream stream_;
-    std::uint64_t left_; ///< after the window
+    std::uint64_t left_; ///< bytes after the window
     std::vector<char> window_;
     io::Text text_;
 };

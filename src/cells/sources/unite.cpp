@@ -6,7 +6,7 @@ namespace facetmill::cells {
 
 namespace {
 
-/// Negative, zero or positive, like a difference of numbers.
+/// Compares vertices: negative, zero or positive, like a difference.
 int compare_vertices(const Mesh& mesh, const std::vector<std::uint64_t>& names, Index a, Index b) {
     if (names[a] != names[b]) return names[a] < names[b] ? -1 : 1;
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];

@@ -34,7 +34,7 @@ std::uint64_t digest_of(io::Span bytes) {
     return sum;
 }
 
-/// Throws output as io::cannot_write does, with a hint for scratch folders. error: an errno.
+/// Throws the errors of io::cannot_write, with a hint for scratch folders. error: an errno.
 [[noreturn]] void cannot_write_there(const fs::path& folder, int error) {
     const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
     throw Error(

@@ -13,18 +13,18 @@ struct Block {
     std::uint64_t offset = 0, size = 0, digest = 0;
 };
 
-/// Throws output (E-SCRATCH): data in the folder changed after writing.
+/// Throws an output error (E-SCRATCH) because data in the folder changed after writing.
 [[noreturn]] void unreadable_scratch(const std::filesystem::path& folder);
 
 /// An unnamed file, written sequentially and then read at any position.
 class ScratchFile {
   public:
-    /// Throws output (E-WRITE, E-SPACE).
+    /// Throws an output error (E-WRITE, E-SPACE).
     explicit ScratchFile(const std::filesystem::path& folder);
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
 
-    /// Throws output (E-WRITE, E-SPACE).
+    /// Throws an output error (E-WRITE, E-SPACE).
     void append(io::Span bytes);
     /// Returns the written data. No data can be appended afterwards.
     std::shared_ptr<const ReadFile> finish();
@@ -39,30 +39,31 @@ class ScratchFile {
 
 class BlockFile {
   public:
-    /// Throws output (E-WRITE, E-SPACE) if no file can be created in the folder.
+    /// Throws an output error (E-WRITE, E-SPACE) if no file can be created in the folder.
     explicit BlockFile(const std::filesystem::path& folder);
     enum class Named { anew, as_it_is };
-    /// A named file, which stays: a new empty file for writing, or an existing file for reading. Throws
-    /// output (E-WRITE, E-SPACE).
+    /// A named file, which stays: a new empty file for writing, or an existing file for reading. Throws an
+    /// output error (E-WRITE, E-SPACE).
     BlockFile(const std::filesystem::path& file, Named how);
     BlockFile(const BlockFile&) = delete;
     BlockFile& operator=(const BlockFile&) = delete;
 
-    /// Thread-safe. Throws output (E-WRITE, E-SPACE).
+    /// Thread-safe. Throws an output error (E-WRITE, E-SPACE).
     Block put(io::Span bytes);
-    /// Thread-safe. to: block.size bytes. Throws output (E-SCRATCH) if the data changed after writing.
+    /// Thread-safe. to: block.size bytes. Throws an output error (E-SCRATCH) if the data changed after
+    /// writing.
     void get(const Block& block, std::byte* to) const;
     io::Bytes get(const Block& block) const;
-    /// Throws output (E-SCRATCH) because data changed after writing.
+    /// Throws an output error (E-SCRATCH) because data changed after writing.
     [[noreturn]] void refuse() const { unreadable_scratch(folder_); }
     /// Whether get would succeed.
     bool is_as_written(const Block& block) const;
-    /// Waits until all data is on disk. Throws output (E-WRITE, E-SPACE).
+    /// Waits until all data is on disk. Throws an output error (E-WRITE, E-SPACE).
     void sync() const;
 
   private:
     bool read(const Block& block, std::byte* to) const;
-    std::filesystem::path folder_; ///< or the file, if it has a name
+    std::filesystem::path folder_; ///< the folder, or the named file
     Descriptor file_;
     std::atomic<std::uint64_t> end_{0};
 };
@@ -79,7 +80,7 @@ class SpillFile {
     /// Lists stored in a file, one block each.
     SpillFile(std::unique_ptr<BlockFile> file, const std::vector<Block>& lists);
 
-    /// Adds this many lists. memory: as above, for all unflushed lists.
+    /// Adds this many lists. memory: bytes for all unflushed lists.
     void open_lists(std::size_t lists, std::size_t memory);
     std::size_t add_list();
     void add(std::size_t list, io::Span record);
@@ -92,7 +93,7 @@ class SpillFile {
     /// Reads a part of the list.
     io::Bytes read(std::size_t list, std::uint64_t begin, std::uint64_t size) const;
     /// Copies these flushed lists into a named file, in this order. blocks: their positions in it. sync:
-    /// waits until they are on the disk.
+    /// waits until they are on disk.
     SpillFile stored(const std::filesystem::path& file, const std::vector<std::size_t>& lists, bool sync,
                      std::vector<Block>& blocks) const;
 
@@ -114,7 +115,7 @@ class SpillFile {
 
     std::unique_ptr<BlockFile> file_;
     Records records_ = Records::bytes; ///< the encoding in the file
-    std::size_t room_ = 0;             ///< bytes that a list may buffer
+    std::size_t room_ = 0;             ///< number of bytes that a list may buffer
     std::vector<List> lists_;
 };
 

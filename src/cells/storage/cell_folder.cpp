@@ -40,7 +40,8 @@ CellFolder::CellFolder(Settings settings) : settings_(std::move(settings)) {
         take_lock(fmt::format("facetmill-{}.lock", settings_.beside), Lock::exclusive);
 }
 
-/// The file stays: were it removed, a third run could lock a new one while a second waits for this one.
+/// The file stays. If it were removed, a third run could lock a new file while a second run waits for this
+/// one.
 void CellFolder::take_lock(const std::string& name, Lock how) {
     const fs::path path = file(name);
     Descriptor lock =

@@ -63,7 +63,7 @@ void InputStamps::store(const CellFolder& folder, const std::vector<FaceSource::
     const std::string text = all.dump(1) + "\n";
     try {
         folder.write(file, {std::as_bytes(std::span(text))});
-    } catch (const Error&) { // for example a full disk: the next run reads the files again
+    } catch (const Error&) { // if, for example, the disk is full, the next run reads the files again
         folder.remove(std::string(file) + ".part");
         folder.remove(file);
     }

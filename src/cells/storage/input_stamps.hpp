@@ -11,7 +11,7 @@ class InputStamps {
   public:
     static constexpr const char* file = "facetmill-cells.inputs";
 
-    /// Nanoseconds since 1970.
+    /// The time in nanoseconds since 1970.
     static std::int64_t now();
     /// The stamps of the files when they were opened, whatever their paths name now.
     explicit InputStamps(const std::vector<FaceSource::File>& files, std::int64_t now = InputStamps::now());
@@ -22,7 +22,7 @@ class InputStamps {
     void store(const CellFolder& folder, const std::vector<FaceSource::File>& files) const;
 
   private:
-    std::vector<FileStamp> stamps_; ///< [files]; fewer: the stamps are unavailable
+    std::vector<FileStamp> stamps_; ///< [files] stamps; fewer if stamps are unavailable
     std::int64_t now_;
 };
 

@@ -9,7 +9,7 @@ namespace facetmill::cells {
 
 namespace {
 
-constexpr std::size_t at_once = 8192; // numbers
+constexpr std::size_t at_once = 8192; // numbers read at once
 
 constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
@@ -39,7 +39,7 @@ void NumberFile::add(std::span<const double> numbers) {
     std::vector<double> some;
     some.reserve(at_once);
     const auto flush = [&] {
-        double sum = 0; // of a batch: summing per batch adds small terms to small terms
+        double sum = 0; // sum of a batch, which adds small terms to small terms
         for (const double x : some) sum += x;
         sums_.sum += sum;
         file_.append(std::as_bytes(std::span(some)));

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that exceed memory, and their statistics.
+// Stores numbers that exceed memory, and computes their statistics.
 
 #include "cells/storage/block_file.hpp"
 #include "geometry/measure/measure.hpp"
@@ -8,13 +8,13 @@ namespace facetmill::cells {
 
 class NumberFile {
   public:
-    /// Throws output (E-WRITE, E-SPACE).
+    /// Throws an output error (E-WRITE, E-SPACE).
     explicit NumberFile(const std::filesystem::path& scratch) : file_(scratch), counts_(bins) {}
 
-    /// Adds the finite numbers. Throws output (E-WRITE, E-SPACE).
+    /// Adds the finite numbers. Throws an output error (E-WRITE, E-SPACE).
     void add(std::span<const double> numbers);
-    /// As statistics(), over all numbers; reads the file three times. Nothing can be added afterwards.
-    /// Throws output (E-SCRATCH).
+    /// Like statistics() over all numbers. Reads the file three times. No numbers can be added afterwards.
+    /// Throws an output error (E-SCRATCH).
     Statistics statistics();
 
   private:

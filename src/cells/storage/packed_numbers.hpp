@@ -1,5 +1,5 @@
 #pragma once
-// Packs numbers that are close to their predecessors: as differences, in a single byte if small.
+// Packs numbers close to their predecessors as differences. Small differences take a single byte.
 
 #include "io/bytes.hpp"
 
@@ -23,7 +23,7 @@ void put_difference(std::uint64_t before, std::uint64_t number, Put&& put) {
     put(static_cast<std::byte>(left));
 }
 
-/// The number after `before`. next(): the next byte.
+/// The number after `before`. next(): returns the next byte.
 template <class Next>
 [[nodiscard]] std::uint64_t take_difference(std::uint64_t before, Next&& next) {
     constexpr int most = 63;

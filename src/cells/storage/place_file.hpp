@@ -8,15 +8,15 @@ namespace facetmill::cells {
 
 class PlaceFile {
   public:
-    /// Throws output (E-WRITE, E-SPACE).
+    /// Throws an output error (E-WRITE, E-SPACE).
     explicit PlaceFile(const std::filesystem::path& scratch) : scratch_(scratch), file_(scratch) {}
-    /// Throws output (E-WRITE, E-SPACE).
+    /// Throws an output error (E-WRITE, E-SPACE).
     void add(std::size_t place);
 
     /// Reads the numbers in order.
     class Reader {
       public:
-        /// Throws output (E-SCRATCH) if no numbers are left, or the next is not below `end`.
+        /// Throws an output error (E-SCRATCH) if no numbers are left, or the next is not below `end`.
         std::size_t next(std::size_t end);
 
       private:
@@ -28,7 +28,7 @@ class PlaceFile {
         Stream bytes_;
         std::uint64_t last_ = 0;
     };
-    /// Nothing can be added afterwards.
+    /// No places can be added afterwards.
     Reader finish() { return {scratch_, file_.finish(), size_}; }
 
   private:

@@ -74,7 +74,9 @@ RecordCache::RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t 
     slot_of_.assign(blocks, absent);
     block_in_.reserve(slots_);
     used_.reserve(slots_);
-    memory_.reserve(slots_ * block_size_); // the system counts pages when they are written
+    memory_.reserve(
+        slots_ *
+        block_size_); // reserving is cheap, because the system counts pages only when they are written
 }
 
 void RecordCache::append(const std::byte* record) {

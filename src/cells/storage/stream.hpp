@@ -1,5 +1,5 @@
 #pragma once
-// Reads parts of a file into memory of a fixed size. Mapped pages would count as the process's own memory.
+// Reads parts of a file into memory of fixed size. Mapped pages would count as the process's memory.
 
 #include "base/hash.hpp"
 #include "io/bytes.hpp"
@@ -10,15 +10,15 @@ namespace facetmill::cells {
 /// A file that is open for reading.
 class ReadFile {
   public:
-    /// Throws missing.
+    /// Throws a missing-file error.
     explicit ReadFile(const std::filesystem::path& path);
     /// Takes an unnamed temporary file in that folder.
     ReadFile(Descriptor file, std::filesystem::path folder)
         : path_(std::move(folder)), file_(std::move(file)), temporary_(true) {}
     ReadFile(const ReadFile&) = delete;
     ReadFile& operator=(const ReadFile&) = delete;
-    /// Thread-safe. Throws malformed (E-CHANGED) if the file ends early; output (E-SCRATCH) for temporary
-    /// data.
+    /// Thread-safe. Throws a malformed-input error (E-CHANGED) if the file ends early, and an output error
+    /// (E-SCRATCH) for temporary data.
     void read(std::uint64_t offset, std::span<std::byte> to) const;
     /// The stamp of the file at opening, even if the path now names another file. None for temporary data.
     const std::optional<FileStamp>& stamp() const { return stamp_; }
@@ -78,8 +78,8 @@ class RecordCache {
     const ReadFile& file_;
     std::uint64_t begin_, count_;
     std::size_t size_, per_block_, block_size_, slots_;
-    std::vector<std::uint32_t> slot_of_;  ///< [blocks]
-    std::vector<std::uint64_t> block_in_; ///< [slots]
+    std::vector<std::uint32_t> slot_of_;  ///< [blocks] slots
+    std::vector<std::uint64_t> block_in_; ///< [slots] blocks
     std::vector<std::uint8_t> used_;      ///< [slots] whether used since the clock hand passed
     std::size_t hand_ = 0;
     io::Bytes memory_;

@@ -208,7 +208,7 @@ void write_glb(const Partition& partition, const WritePlace& place, const io::Wr
                     fmt::format("a GLB cannot be larger than 4 GiB, and this one would have {} bytes", data),
                     "write PLY, simplify first, or split the input");
     ProgressSteps steps({1, 1, 1});
-    Transform there; // of the origin
+    Transform there; // translation of the origin
     for (int axis = 0; axis < 3; ++axis) there.m[axis][3] = place.origin[static_cast<std::size_t>(axis)];
     const Transform node = place.transform * there;
     const std::string json = document_of(rounded_box(partition, place.origin), partition.vertices(),

@@ -23,14 +23,14 @@ namespace {
 
 using io::tileset::TreeTile;
 
-constexpr std::uint64_t children_of_tile = 4; // at most
+constexpr std::uint64_t children_of_tile = 4; // maximum number of children
 
 // Measured: the peak memory of simplifying, measuring and encoding per joined triangle and vertex, and the
 // process's base memory.
 constexpr std::uint64_t bytes_of_tile_face = 180, bytes_of_tile_vertex = 340,
                         bytes_beside_tiles = std::uint64_t{30} << 20;
 
-/// A number per vertex: equal for equal positions, and rarely for others.
+/// A number per vertex. Equal positions have equal numbers; other positions rarely do.
 std::vector<std::uint64_t> keys_of_places(const Mesh& mesh) {
     std::vector<std::uint64_t> keys;
     keys.reserve(mesh.vertex_count());
@@ -85,7 +85,7 @@ class TileMaker {
     }
 
   private:
-    /// As tileset_frame for all vertices, except that vertices of different cells may coincide.
+    /// Like tileset_frame for all vertices, except that vertices of different cells may coincide.
     void choose_frame() {
         const Box own = partition_.source().contents().bounds;
         Box box;
@@ -93,6 +93,7 @@ class TileMaker {
             box.add(transform_.point({(corner & 1 ? own.max : own.min).x, (corner & 2 ? own.max : own.min).y,
                                       (corner & 4 ? own.max : own.min).z}));
         frame_ = io::usual_frame(box, settings_);
+        if (auto warning = io::warning_of_place(frame_)) warnings_.emplace(warning->message, *warning);
         const std::size_t n = partition_.tree().leaves.size();
         for (bool changed = true; changed && frame_.step > frame_.finest;) {
             changed = false;
@@ -131,7 +132,7 @@ class TileMaker {
                left_.vertices_below(station) * bytes_of_tile_vertex;
     }
 
-    /// Throws limit (E-MEMORY) if tiles are too large to be joined.
+    /// Throws a limit error (E-MEMORY) if tiles are too large to be joined.
     void require_room(std::size_t station) const {
         const std::uint64_t needed = bytes_beside_tiles + bytes_given(station);
         if (needed <= means_.memory) return;
@@ -233,10 +234,10 @@ class TileMaker {
     const std::function<void(const io::OutputFile&)>& put_;
     std::vector<Station> hierarchy_nodes_; ///< the root is last
     LeftCells left_;
-    std::vector<std::string> names_;           ///< [stations]
-    std::vector<std::vector<TreeTile>> tiles_; ///< [stations] a pyramid for a leaf, else a single tile
+    std::vector<std::string> names_;           ///< [stations] names
+    std::vector<std::vector<TreeTile>> tiles_; ///< [stations] a pyramid for a leaf, otherwise a single tile
     io::TilesetFrame frame_;
-    std::optional<Borders> borders_; ///< by position
+    std::optional<Borders> borders_; ///< borders by position
     std::mutex guard_;               ///< protects the members below, and put_
     std::map<std::string, Diagnostic> warnings_;
     AttributeChanges changes_;

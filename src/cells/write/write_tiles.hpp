@@ -1,6 +1,6 @@
 #pragma once
-// Cells as a tileset of 3D Tiles. Each cell becomes a small pyramid (geometry/pyramid). The roots are joined
-// two to four at a time and simplified, up to a single tile.
+// Writes cells as a tileset of 3D Tiles. Each cell becomes a small pyramid (geometry/pyramid). The roots are
+// joined two to four at a time and simplified, up to a single tile.
 //
 // Vertices at positions shared with outside tiles are held in a tile at every level. They are free once all
 // of their tiles are joined. The tiles of every cut therefore fit together, as in a pyramid made in memory.
@@ -15,7 +15,7 @@ namespace facetmill::cells {
 /// A tileset whose tile files were already passed on.
 struct WrittenTiles {
     std::vector<io::OutputFile> index; ///< the tileset, then the files that it names except tiles
-    std::vector<std::string> names;    ///< of the tile files, each tile before its descendants
+    std::vector<std::string> names;    ///< names of the tile files, each tile before its descendants
     io::TilesWritten told;
     io::VertexCacheUse cache;
     AttributeChanges changes;
@@ -27,9 +27,9 @@ struct WrittenTiles {
 [[nodiscard]] std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile);
 
 /// Passes the tile files to put as they are made, one at a time, in any order. transform: from cell space to
-/// a z-up world in metres. The tiles have no materials, seams or textures. The tree depends on the mesh and
-/// the settings alone. Throws limit (E-MEMORY) if joined tiles exceed memory; stage (E-RANGE); output
-/// (E-SCRATCH, E-SPACE, and the errors of put).
+/// a z-up world in metres. The tiles have no materials, seams or textures. The tree depends only on the mesh
+/// and the settings. Throws a limit error (E-MEMORY) if joined tiles exceed memory, a stage error (E-RANGE),
+/// an output error (E-SCRATCH, E-SPACE), and the errors of put.
 [[nodiscard]] WrittenTiles write_tiles(const Partition& partition, const Transform& transform,
                                        const io::WriteSettings& settings, const CellResources& means,
                                        const std::function<void(const io::OutputFile&)>& put);

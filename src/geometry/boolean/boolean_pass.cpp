@@ -30,7 +30,7 @@ struct Winding {
     bool operator==(const Winding&) const = default;
 };
 
-/// The operands' winding numbers on one side of a patch; without operands, all components count for the
+/// The operands' winding numbers on one side of a patch. Without operands, all components belong to the
 /// first.
 using Sides = std::array<Winding, 2>;
 
@@ -120,7 +120,8 @@ class BooleanPass {
     }
 
     bool refuse_for_memory(TriangleSoup& soup) {
-        constexpr double bytes_a_pair = 1700, bytes_a_triangle = 100, bytes_a_crossing = 100; // measured
+        constexpr double bytes_a_pair = 1700, bytes_a_triangle = 100,
+                         bytes_a_crossing = 100; // measured memory
         double left = effort_.memory ? static_cast<double>(*effort_.memory) : HUGE_VAL;
         left -= bytes_a_pair * static_cast<double>(soup.pairs.size()) +
                 bytes_a_triangle * static_cast<double>(soup.triangles.size());
@@ -152,7 +153,7 @@ class BooleanPass {
     }
 
     void merge_where_cut() {
-        if (!solids_.rings.empty()) return; // then no two vertices have the same position
+        if (!solids_.rings.empty()) return; // rings are known only if no two vertices have the same position
         auto target = lowest_at_place(mesh_);
         std::vector<std::uint8_t> touched(mesh_.vertex_count(), 0);
         for (Index f = 0; f < mesh_.face_count(); ++f)
@@ -272,7 +273,7 @@ class BooleanPass {
     /// Finds patches: leaves connected by edges without other leaves. They have the same winding numbers on
     /// their sides.
     void find_patches(const Arrangement& arrangement) {
-        std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // may have been merged
+        std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // vertices that may have been merged
         for (Index f = 0; f < mesh_.face_count(); ++f)
             for (Index c = mesh_.face_begin(f); cut_[f] && c < mesh_.face_end(f); ++c)
                 merged[mesh_.vertex(c)] = 1;
@@ -282,8 +283,8 @@ class BooleanPass {
         parallel_for(patch_.size(), [&](std::size_t i) { patch_[i] = sets.find(patch_[i]); });
     }
 
-    /// Joins uncut faces along edges that got no more faces: patch_ becomes the lowest leaf of each. All
-    /// edges around a ring that no cut face touches are such edges.
+    /// Joins uncut faces along edges that got no additional faces. patch_ becomes the lowest leaf of each
+    /// set. All edges around a ring that no cut face touches are such edges.
     void join_uncut(const std::vector<std::uint8_t>& merged) {
         Rings calm = solids_.rings;
         parallel_for(calm.size(), [&](std::size_t v) { calm[v] = calm[v] && !merged[v]; });
@@ -368,14 +369,14 @@ class BooleanPass {
         return ahead;
     }
 
-    /// The lower winding number of the outward components, of both sides.
+    /// The lower winding number of the outward components on both sides.
     int least_around(const Sides& front, const Sides& back, std::size_t operand) const {
         const bool reversed = operand == 1 && operands_->operation == CombineOperation::subtract;
         const int sign = reversed ? -1 : 1;
         return std::min(sign * front[operand].outward, sign * back[operand].outward);
     }
 
-    /// True if the centre of a leaf is certainly in a region where no face stays.
+    /// True if the centre of a leaf is certainly in a region from which all faces are removed.
     bool is_buried(const Arrangement& arrangement, Index i) const {
         if (!buried_->takes_all()) return false;
         const Leaf l = leaf(i);
@@ -489,16 +490,16 @@ class BooleanPass {
     const Operands* operands_; ///< may be null
     const PassBudget& effort_;
     std::optional<Buried> buried_;               ///< set once triangles are gathered
-    std::vector<std::uint8_t> cut_;              ///< [faces]
-    std::vector<std::pair<Index, Index>> pairs_; ///< of faces to cut
-    TriangleFaces triangles_;                    ///< of closed components
-    std::vector<Index> first_;                   ///< [faces + 1] into triangles_
-    std::vector<Index> uncut_;                   ///< faces
+    std::vector<std::uint8_t> cut_;              ///< [faces] 1 for faces to cut
+    std::vector<std::pair<Index, Index>> pairs_; ///< pairs of faces to cut
+    TriangleFaces triangles_;                    ///< triangles of closed components
+    std::vector<Index> first_;                   ///< [faces + 1] offsets into triangles_
+    std::vector<Index> uncut_;                   ///< uncut faces
     std::vector<Leaf> pieces_;                   ///< in the arrangement's order
     std::vector<Index> patch_;                   ///< [leaves] the lowest leaf of the same patch
     std::vector<std::uint8_t> has_cavity_;       ///< [clusters] 1 if it has an inward component
-    std::vector<Fate> fate_;                     ///< [leaves]
-    std::vector<std::uint8_t> filled_;           ///< [components]
+    std::vector<Fate> fate_;                     ///< [leaves] fates
+    std::vector<std::uint8_t> filled_;           ///< [components] 1 for filled cavities
     United result_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// One pass of uniting solids: keeps the outer surface of the union, and removes faces inside.
+// A pass of uniting solids. It keeps the outer surface of the union, and removes faces inside.
 
 #include "geometry/boolean/combine.hpp"
 #include "geometry/boolean/solids.hpp"
@@ -10,8 +10,8 @@ namespace facetmill::clean_steps {
 struct United {
     Mesh mesh;
     AttributeChanges changes;
-    std::size_t uncut_faces = 0;   ///< of the result; the pieces of cut faces follow them
-    std::size_t cut_faces = 0;     ///< replaced by their outer pieces
+    std::size_t uncut_faces = 0;   ///< uncut faces of the result; the pieces of cut faces follow them
+    std::size_t cut_faces = 0;     ///< faces replaced by their outer pieces
     std::size_t covered_faces = 0; ///< removed uncut faces
     std::size_t pairs = 0;         ///< pairs of triangles that were cut along each other
     /// [vertices] 1 for rings (see Solids) whose faces all stay uncut; empty if no rings are known.
@@ -21,7 +21,7 @@ struct United {
         std::string why;
     };
     std::vector<Refused> refused; ///< if not empty, the other members are not set
-    bool short_of_memory = false; ///< free memory is the reason for the refusal
+    bool short_of_memory = false; ///< the refusal is due to a lack of memory
 };
 
 /// Limits on the work of a pass.

@@ -12,7 +12,7 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr std::size_t max_walls = 4096; ///< per core: each point is compared with all walls
+constexpr std::size_t max_walls = 4096; ///< walls per core, because each point is compared with all walls
 
 double largest(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -177,10 +177,10 @@ Buried::Corners Buried::corners(Index triangle) const {
     return {mesh_.point(a), mesh_.point(b), mesh_.point(c)};
 }
 
-/// The errors, with e the rounding unit 2^-53. A component of the normal has an error below 5 e times the sum
-/// of its two products' sizes (`size`). A difference from a corner has a relative error of e. A sum of three
-/// products has an error below 4 e times the sum of their sizes. The total is at most 10 e times `size` times
-/// the extent of the box around the point. Twice this is allowed, and no product underflows.
+/// The errors, with e the rounding unit 2^-53. A component of the normal has an error below 5 e times the
+/// sum of its two products' sizes (`size`). A difference from a corner has a relative error of e. A sum of
+/// three products has an error below 4 e times the sum of their sizes. The total is at most 10 e times
+/// `size` times the extent of the box around the point. The bound is twice this, and no product underflows.
 std::optional<Buried::Core> Buried::core_of(std::span<const Index> triangles, bool turned,
                                             std::vector<Wall>& walls) const {
     if (triangles.empty() || triangles.size() > max_walls) return {};
@@ -229,16 +229,18 @@ std::vector<std::uint8_t> Buried::doubtful(const SelfIntersections& found,
     std::vector<std::uint8_t> is(has_core.size(), 0);
     for (Index p = 0; p < is.size(); ++p)
         is[p] = solids_.cluster[p] != none && !has_core[p] && solids_.inward[p];
-    for (Index f = 0; operands && f < operands->lost.size(); ++f) // its self-intersections are unknown
+    for (Index f = 0; operands && f < operands->lost.size();
+         ++f) // self-intersections of its component are unknown
         if (operands->lost[f] && !has_core[of_face[f]]) is[of_face[f]] = 1;
     for (const auto& [f, g] : found.pairs)
         if (of_face[f] == of_face[g] && !has_core[of_face[f]]) is[of_face[f]] = 1;
     const auto place = lowest_at_place(mesh_);
-    std::vector<std::tuple<Index, Index, Index, bool>> edges; // lower, higher position, component, way
+    std::vector<std::tuple<Index, Index, Index, bool>>
+        edges; // lower position, higher position, component, direction
     for (Index f = 0; f < mesh_.face_count(); ++f) {
         const Index p = of_face[f];
         if (has_core[p] || is[p] || solids_.cluster[p] == none) continue;
-        if (mesh_.face_size(f) > 4) is[p] = 1; // it may overlap itself
+        if (mesh_.face_size(f) > 4) is[p] = 1; // the face may overlap itself
         for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
             const Index a = place[mesh_.vertex(c)], b = place[mesh_.vertex(next_corner(mesh_, f, c))];
             edges.emplace_back(std::min(a, b), std::max(a, b), p, a < b);
@@ -286,7 +288,7 @@ std::vector<std::uint8_t> Buried::hold_meetings(std::span<const std::pair<Index,
     parallel_chunks(
         pairs.size(),
         [&](std::size_t begin, std::size_t end) {
-            std::vector<Index> near; // the first face of the pair
+            std::vector<Index> near; // components near the first face of the pair
             for (std::size_t i = begin; i < end; ++i) {
                 if (i == begin || pairs[i].first != pairs[i - 1].first) near = cores_near(pairs[i].first);
                 held[i] = may_leave(pairs[i].first) && may_leave(pairs[i].second) &&
@@ -323,7 +325,7 @@ bool Buried::holds_point(const NearPoint& p, Index cluster) const {
 bool Buried::holds_pair(Index s, Index t, const std::vector<Index>& cores) const {
     const Corners a = corners(s), b = corners(t);
     const Box box = common_box(a, b);
-    if (box.empty()) return true; // no common points
+    if (box.empty()) return true; // the triangles have no common points
     std::vector<Index> near;      // a component's own core never contains its faces
     for (const Index core : cores)
         if (boxes_meet(cores_[core].box, box)) near.push_back(core);

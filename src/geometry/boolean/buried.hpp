@@ -57,8 +57,8 @@ struct NearPoint {
 /// beyond 1e100 bury nothing, so that no product under- or overflows.
 class Buried {
   public:
-    /// mesh: with a subtracted second operand reversed. triangles: of closed components; face f has those
-    /// from first[f] to first[f + 1]. found: all pairs of intersecting faces.
+    /// mesh: a subtracted second operand is reversed. triangles: the triangles of closed components; face f
+    /// has those from first[f] to first[f + 1]. found: all pairs of intersecting faces.
     Buried(const Mesh& mesh, const Solids& solids, const SelfIntersections& found,
            const TriangleFaces& triangles, const std::vector<Index>& first, const Operands* operands);
 
@@ -82,8 +82,8 @@ class Buried {
         Index component, cluster;
         Box box;
         Vec3 centre;
-        double radius;          ///< of a ball around the centre inside the core
-        std::size_t begin, end; ///< of walls_
+        double radius;          ///< radius of a ball around the centre inside the core
+        std::size_t begin, end; ///< range in walls_
     };
     using Corners = std::array<Vec3, 3>;
     struct Stretch;
@@ -111,12 +111,13 @@ class Buried {
 
     const Mesh& mesh_;
     const Solids& solids_;
-    const std::vector<std::uint8_t>* only_second_ = nullptr; ///< [components] with an intersection, else null
+    const std::vector<std::uint8_t>* only_second_ =
+        nullptr; ///< [components] 1 for components of the second operand, for an intersection; otherwise null
     const TriangleFaces& triangles_;
     const std::vector<Index>& first_;
     std::vector<Wall> walls_;
     std::vector<Core> cores_;
-    std::optional<BoxTree> tree_; ///< of cores_
+    std::optional<BoxTree> tree_; ///< tree over cores_
 };
 
 } // namespace facetmill::clean_steps

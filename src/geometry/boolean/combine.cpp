@@ -38,7 +38,8 @@ std::span<const std::uint32_t> mesh_of_faces(const Mesh& mesh) {
     return std::get<std::vector<std::uint32_t>>(mesh.find(mesh_name, Domain::face)->data);
 }
 
-/// Removes faces without area from surfaces that stay closed without them. Returns true if there were none.
+/// Removes faces without area from surfaces that stay closed without them. Returns true if no such face
+/// existed.
 bool take_out_degenerate(Work& work) {
     const auto is_any = [&](std::size_t begin, std::size_t end) {
         int any = 0;
@@ -63,7 +64,8 @@ std::optional<CombineFailure> misfit(const Mesh& mesh, const Solids& solids) {
     return {};
 }
 
-/// A failure for the first mesh with a negative volume: next to other meshes it would count as a cavity.
+/// A failure for the first mesh with a negative volume, because among other meshes it would count as a
+/// cavity.
 std::optional<CombineFailure> turned_over(const Mesh& mesh, const Solids& solids, std::size_t meshes) {
     std::vector<double> volumes(meshes, 0);
     std::vector<Index> first(meshes, none);
@@ -89,8 +91,8 @@ class Combining {
 
     CombineResult run() {
         const bool had_area = take_out_degenerate(work_);
-        constexpr std::uint64_t bytes_a_pair = 32;  // the following steps need as much again
-        constexpr std::uint64_t bytes_a_face = 170; // measured
+        constexpr std::uint64_t bytes_a_pair = 32;  // the following steps need the same memory again
+        constexpr std::uint64_t bytes_a_face = 170; // measured memory per face
         const std::uint64_t bytes = memory_left().value_or(std::uint64_t{4} << 30);
         if (work_.mesh.face_count() > 0 && bytes < bytes_a_face * work_.mesh.face_count())
             return short_of_memory(fmt::format("combine {} faces", work_.mesh.face_count()), 0);
@@ -150,8 +152,9 @@ class Combining {
 
     CombineResult combine(const Solids& solids, const SelfIntersections& found, const Operands& operands) {
         const CleanSettings settings;
-        const Vec3 at =
-            found.pairs.empty() ? Vec3{} : corner_mean(work_.mesh, found.pairs[0].first); // of a failure
+        const Vec3 at = found.pairs.empty()
+                            ? Vec3{}
+                            : corner_mean(work_.mesh, found.pairs[0].first); // position of a failure
         Trial trial(std::move(work_), solids, settings);
         Failures failures = trial.run(found, &operands);
         std::size_t crowded = 0;

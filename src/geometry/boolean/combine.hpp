@@ -23,18 +23,18 @@ struct CombineSettings {
 /// Why the operation failed.
 struct CombineFailure {
     std::string why;
-    Index mesh = none; ///< the unsuitable mesh; none: the result is unsuitable
+    Index mesh = none; ///< the unsuitable mesh; none if the result is unsuitable
     Vec3 at;
 };
 
 struct CombineResult {
     Mesh mesh;
-    std::vector<Index> mesh_of_face; ///< [faces] the source mesh of each
+    std::vector<Index> mesh_of_face; ///< [faces] source meshes
     AttributeChanges changes;
     std::size_t cut_faces = 0;     ///< faces that intersect others outside of buried regions
     std::size_t covered_faces = 0; ///< uncut faces that were removed
     std::optional<CombineFailure> failure;
-    bool short_of_memory = false; ///< caused the failure: with more memory, the operation may succeed
+    bool short_of_memory = false; ///< memory was short; with more memory, the operation may succeed
 };
 
 /// Combines closed, consistently oriented meshes. The solid of a mesh is the set of points with a winding
@@ -48,13 +48,13 @@ struct CombineResult {
 /// that touch at an edge or vertex are separated there. It does not intersect itself, except that faces may
 /// touch at equal positions. It is empty if no point satisfies the operation.
 ///
-/// Uncut faces stay polygons, in order of the meshes; pieces are triangles and come last. Cut faces keep only
-/// vertices that they had or that other faces need (geometry/boolean/redrawn.hpp). Where faces of several
-/// meshes coincide, the first mesh's face stays. When the second operand is subtracted, its faces are
-/// reversed with their normals. Attributes that only some meshes have are added to the others, as in
+/// Uncut faces stay polygons, in order of the meshes; pieces are triangles and come last. Cut faces keep
+/// only vertices that they had or that other faces need (geometry/boolean/redrawn.hpp). Where faces of
+/// several meshes coincide, the first mesh's face stays. When the second operand is subtracted, its faces
+/// are reversed with their normals. Attributes that only some meshes have are added to the others, as in
 /// `append`. New corners interpolate within the face that they are cut from.
 ///
-/// Never throws for valid meshes. The same for any number of threads.
+/// Never throws for valid meshes. The result does not depend on the number of threads.
 [[nodiscard]] CombineResult combine(std::vector<Mesh> meshes, const CombineSettings& settings);
 
 } // namespace facetmill

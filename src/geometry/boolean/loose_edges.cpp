@@ -19,7 +19,7 @@ LooseEdges::LooseEdges(const Mesh& mesh, const Rings& rings) {
                 break;
             }
     const Mesh some = only_faces(mesh, faces);
-    std::vector<Index> corner(some.corner_count()); // of the full mesh
+    std::vector<Index> corner(some.corner_count()); // corners of the full mesh
     for (Index i = 0; i < faces.size(); ++i)
         for (Index k = 0; k < mesh.face_size(faces[i]); ++k)
             corner[some.face_begin(i) + k] = mesh.face_begin(faces[i]) + k;
@@ -29,7 +29,7 @@ LooseEdges::LooseEdges(const Mesh& mesh, const Rings& rings) {
     for (Index e = 0; e < table.size(); ++e) {
         const auto at = table.corners_of(e);
         const Index from = corner[at[0]], to = corner[next_corner(some, face_of[at[0]], at[0])];
-        if (rings[mesh.vertex(from)] && rings[mesh.vertex(to)]) continue; // `some` lacks some of its faces
+        if (rings[mesh.vertex(from)] && rings[mesh.vertex(to)]) continue; // `some` lacks faces of this edge
         for (const Index c : at) corners_.push_back(corner[c]);
         offsets_.push_back(static_cast<Index>(corners_.size()));
     }

@@ -45,7 +45,7 @@ class FaceSets {
     }
 
     void join(Index f, Index g) { sets_.join(element(f), element(g)); }
-    /// An equal number, below `bound`, for all faces of a set. Call it after all joins.
+    /// A number below `bound` that is equal for all faces of a set. Call it after all joins.
     Index find(Index f) { return sets_.find(element(f)); }
     std::size_t bound() const { return rings_.size() + mesh_.face_count(); }
 

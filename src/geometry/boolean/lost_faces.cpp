@@ -55,9 +55,9 @@ class Rooms {
         return first_[row] + static_cast<Index>(std::popcount(up_to)) - 1;
     }
 
-    std::array<std::uint64_t, rows> starts_; ///< of the runs, in the bits of a number
+    std::array<std::uint64_t, rows> starts_; ///< start bits of the runs
     std::array<Index, rows> first_;          ///< number of each row's first run
-    std::vector<Index> number_;              ///< [runs] the room
+    std::vector<Index> number_;              ///< [runs] rooms
     std::size_t count_ = 0;
 };
 
@@ -71,7 +71,7 @@ class Losing {
         parallel_for(mesh_.face_count(), [&](std::size_t f) { touched[second_[f]].mark(cells_[f]); });
         std::array<std::vector<std::uint8_t>, 2> goes; // [rooms] 1 if the operand's faces are lost
         const std::array rooms{Rooms(touched[1]), Rooms(touched[0])};
-        std::vector<Index> room(mesh_.face_count()); // or none
+        std::vector<Index> room(mesh_.face_count()); // [faces] the room, or none
         parallel_for(room.size(), [&](std::size_t f) {
             const bool is_in_one = !touched[1 - second_[f]].may_meet(cells_[f]);
             room[f] = is_in_one ? rooms[second_[f]].of(cells_[f].low) : none;
@@ -95,7 +95,7 @@ class Losing {
         Cell cell;
         std::size_t operand;
         Index room;
-        int winding = 0; ///< around the vertex, of the other operand
+        int winding = 0; ///< winding number of the other operand around the vertex
     };
 
     std::uint8_t is_lost(const View& view) const {
@@ -113,7 +113,7 @@ class Losing {
 
     /// The common box of both operands, slightly enlarged.
     Box common_box() const {
-        struct Range { // range of vertices
+        struct Range { // a range of vertices
             Index low = none, high = 0;
             void add(const Range& r) {
                 low = std::min(low, r.low);
@@ -146,7 +146,7 @@ class Losing {
         return both;
     }
 
-    /// Chooses a test vertex in each room with many faces. room: of each face.
+    /// Chooses a test vertex in each room with many faces. room: the room of each face.
     void find_views(const std::array<Rooms, 2>& rooms, const std::vector<Index>& room) {
         std::array<std::vector<std::size_t>, 2> count;
         for (std::size_t k = 0; k < 2; ++k) count[k].assign(rooms[k].count(), 0);

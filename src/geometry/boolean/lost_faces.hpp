@@ -14,19 +14,19 @@ namespace facetmill::clean_steps {
 ///
 /// A *room* is a connected set of grid cells that no box of one operand's faces touches. That operand has a
 /// constant winding number in the room. The other operand's faces in the room are lost when the number
-/// decides both of their sides. At a number of at least 1 this holds for a union, and for faces of the
-/// minuend. Below 1 it holds for an intersection, and for faces of the subtrahend. An exact ray from a vertex
-/// in the room determines the number. Rooms with few faces are skipped.
+/// decides both of their sides. At a number of at least 1 this is true for a union, and for faces of the
+/// minuend. Below 1 it is true for an intersection, and for faces of the subtrahend. An exact ray from a
+/// vertex in the room determines the number. Rooms with few faces are skipped.
 ///
 /// **Pairs of two faces of the same operand may be skipped if one is lost.** Let K be the open set of points
 /// off the other operand where its winding number decides as above. A lost face has a point in K, and all
 /// skipped intersections of its operand are in its K. K ends only at the other operand's faces, and
-/// everything is cut along these. So a leaf (a piece or an uncut face) of the operand is entirely in K or has
-/// no point in K. A leaf in K is removed, and any test point shows that. A ray counts exactly how often the
-/// other operand winds, because the point is on none of its faces. Its neighbour across an edge without other
-/// leaves is also in K. All other leaves are cut along all faces that they meet.
+/// everything is cut along these. So a leaf (a piece or an uncut face) of the operand is entirely in K or
+/// has no point in K. A leaf in K is removed, and any test point shows that. A ray counts exactly how often
+/// the other operand winds, because the point is on none of its faces. Its neighbour across an edge without
+/// other leaves is also in K. All other leaves are cut along all faces that they meet.
 ///
-/// Parallel; the same for any number of threads.
+/// Parallel; the result does not depend on the number of threads.
 [[nodiscard]] std::vector<std::uint8_t> lost_faces(const Mesh& mesh, std::span<const std::uint8_t> second,
                                                    CombineOperation operation);
 

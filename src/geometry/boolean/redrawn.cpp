@@ -121,7 +121,7 @@ class Redrawing {
         std::vector<Index> cut; // cut triangles
         for (const OuterPiece& p : pieces_)
             if (cut.empty() || cut.back() != p.triangles[0]) cut.push_back(p.triangles[0]);
-        using Side = std::tuple<Index, Index, Index, Index>; // low, high, index in cut, corner
+        using Side = std::tuple<Index, Index, Index, Index>; // low vertex, high vertex, index in cut, corner
         std::vector<Side> all;
         for (Index i = 0; i < cut.size(); ++i)
             for (Index k = 0; k < 3; ++k) {
@@ -231,7 +231,7 @@ class Redrawing {
     }
 
     void draw() {
-        std::map<Index, Index> number; // of sheets that lose nodes
+        std::map<Index, Index> number; // numbers of sheets that lose nodes
         for (Index c = 0; c < 3 * pieces_.size(); ++c)
             if (goes_[node_at(c)]) number.try_emplace(sheet_of(c), none);
         std::vector<Arrangement::Region> regions;
@@ -239,7 +239,8 @@ class Redrawing {
             n = static_cast<Index>(regions.size());
             regions.push_back({sheet, {}, {}});
         }
-        std::vector<std::map<Index, Index>> holders(regions.size()); // node -> a triangle of the sheet
+        std::vector<std::map<Index, Index>> holders(
+            regions.size()); // per region: a triangle of the sheet for each node
         std::vector<OuterPiece> drawn;
         for (Index i = 0; i < pieces_.size(); ++i) {
             const auto at = number.find(sheet_[i]);
@@ -286,10 +287,10 @@ class Redrawing {
     std::vector<OuterPiece> pieces_;
     const Arrangement& arrangement_;
     const TriangleFaces& triangles_;
-    std::vector<Index> sheet_;       ///< [pieces]
-    EdgeTable edges_;                ///< of the pieces; corner 3 i + k is corner k of piece i
-    std::vector<Outer> outer_;       ///< [nodes]
-    std::vector<std::uint8_t> goes_; ///< [nodes]
+    std::vector<Index> sheet_;       ///< [pieces] the sheet
+    EdgeTable edges_;                ///< edges of the pieces; corner 3 i + k is corner k of piece i
+    std::vector<Outer> outer_;       ///< [nodes] outer edges
+    std::vector<std::uint8_t> goes_; ///< [nodes] 1 for removed nodes
 };
 
 } // namespace

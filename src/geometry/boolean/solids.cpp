@@ -73,7 +73,7 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const LooseEdges& edges, const
     return fitness;
 }
 
-/// One entry for each unfit component that intersects something.
+/// An entry for each unsuitable component that intersects another.
 std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components,
                                   const std::vector<Fitness>& fitness, const SelfIntersections& found) {
     struct Place {

@@ -63,7 +63,7 @@ class Search {
             Cost cost{std::max({left.dihedral, right.dihedral, dihedral_over(i, m, normal),
                                 dihedral_over(m, k, normal)}),
                       left.area + right.area + length(normal)};
-            if (flat(i, m, k, normal)) cost.dihedral = 3; // only as a last choice
+            if (flat(i, m, k, normal)) cost.dihedral = 3; // used only as a last choice
             if (i == 0 && k + 1 == n_ && !across_.empty())
                 cost.dihedral = std::max(cost.dihedral, dihedral(across_[k], normal));
             if (at == none || cost < best) {

@@ -18,7 +18,7 @@ using Cell = std::array<std::uint8_t, 3>;
 struct CellRange {
     Cell low, high;
 };
-constexpr std::size_t cells_along = 64; ///< each axis
+constexpr std::size_t cells_along = 64; ///< cells along each axis
 
 /// The grid cells of each face of a mesh. Parts outside the box belong to the first or the last cell along an
 /// axis, which contain nothing else. Cell numbers are monotonic, so boxes that meet have a common cell.
@@ -59,7 +59,7 @@ class FaceCells {
 
     Box box_;
     Vec3 scale_;
-    std::vector<CellRange> ranges_; ///< [faces]
+    std::vector<CellRange> ranges_; ///< [faces] ranges of cells
 };
 
 /// Any thread may mark ranges; queries are valid once all are marked.
@@ -73,7 +73,7 @@ class TouchedCells {
             return false;
         });
     }
-    /// False: the range touches no marked cell.
+    /// False if the range touches no marked cell.
     bool may_meet(const CellRange& range) const {
         return visit(range, [&](std::size_t row, std::uint64_t bits) { return (rows_[row] & bits) != 0; });
     }

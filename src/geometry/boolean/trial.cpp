@@ -17,7 +17,7 @@ constexpr const char* spreading = "rounding the coordinates of the union makes e
 /// position. If a pass makes new intersections, the second uses this distance, and each later pass eight
 /// times the previous.
 constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
-/// The same for 32-bit positions: their rounding error.
+/// The merge distance for 32-bit positions: their rounding error.
 constexpr double nearest_single = 1.0 / static_cast<double>(std::int64_t{1} << 22);
 /// Temporary face attribute: the cluster of a face (counted from 1), and a flag for faces made by the last
 /// pass.
@@ -26,7 +26,7 @@ constexpr std::uint32_t fresh = std::uint32_t{1} << 31;
 
 void put_marks(Mesh& mesh, const Solids& solids) {
     std::vector<std::uint32_t> marks(mesh.face_count());
-    for (Index f = 0; f < marks.size(); ++f) marks[f] = solids.cluster_of_face(f) + 1; // none + 1 is 0
+    for (Index f = 0; f < marks.size(); ++f) marks[f] = solids.cluster_of_face(f) + 1; // `none` + 1 is 0
     mesh.attributes.push_back(
         {std::string(mark_name), Domain::face, Role::index, 1, false, AttributeData(std::move(marks))});
 }
@@ -106,7 +106,8 @@ bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, doubl
     United united = unite(work_.mesh, solids, found, {tolerance, settings_.single}, operands, effort);
     short_of_memory_ |= united.short_of_memory;
     first_pairs_ = std::max(first_pairs_, united.pairs);
-    for (const auto& refused : united.refused) { // a cluster of this pass; marks give the original cluster
+    for (const auto& refused :
+         united.refused) { // refused has clusters of this pass; marks give the original cluster
         for (Index f = 0; f < work_.mesh.face_count(); ++f)
             if (solids.cluster_of_face(f) == refused.cluster) fail(marks_of(work_.mesh)[f], refused.why);
     }
@@ -133,7 +134,7 @@ void Trial::tidy() {
     if (settings_.duplicates) remove_duplicates(work_);
     if (settings_.non_manifold)
         take_apart_non_manifold(work_, {.all = true, .single = settings_.single}, &edges_);
-    work_.counts = before; // part of the union, so not counted
+    work_.counts = before; // this is part of the union, so it is not counted
 }
 
 /// Faces that are not fresh intersect no more than before the last pass.
@@ -142,7 +143,7 @@ SelfIntersections Trial::crossings_of_fresh() const {
     std::vector<std::uint8_t> among(marks.size());
     for (std::size_t f = 0; f < among.size(); ++f) among[f] = (marks[f] & fresh) != 0;
     SelfIntersections found = crossings_near(work_.mesh, among);
-    std::erase_if(found.pairs, [&](const auto& pair) { // existed before
+    std::erase_if(found.pairs, [&](const auto& pair) { // removes pairs that existed before
         const auto m = marks[pair.first] & ~fresh, n = marks[pair.second] & ~fresh;
         return (m == 0 && solids_.meets_unfit[n - 1]) || (n == 0 && solids_.meets_unfit[m - 1]);
     });

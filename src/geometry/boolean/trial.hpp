@@ -8,7 +8,7 @@
 
 namespace facetmill::clean_steps {
 
-using Failures = std::map<Index, std::string>; ///< cluster -> why
+using Failures = std::map<Index, std::string>; ///< reasons by cluster
 
 /// The work on clusters that are united together.
 class Trial {
@@ -37,12 +37,12 @@ class Trial {
     const CleanSettings& settings_;
     const Solids& solids_;
     Work work_;
-    std::optional<EdgeTable> edges_; ///< of the mesh, if known
+    std::optional<EdgeTable> edges_; ///< edges of the mesh, if known
     bool is_tidy_ = false;           ///< the mesh is known to be closed, with two faces at each edge
     Failures failures_;
     bool short_of_memory_ = false;
     bool is_operation_ = false;   ///< explicitly requested, so time is not limited
-    std::size_t first_pairs_ = 0; ///< of triangles, in the first pass
+    std::size_t first_pairs_ = 0; ///< pairs of triangles in the first pass
 };
 
 } // namespace facetmill::clean_steps

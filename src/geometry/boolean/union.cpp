@@ -14,8 +14,7 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// Clusters that cannot be united are excluded, and the rest is tried again. This bounds the attempts for
-/// hostile input.
+/// Limits the attempts for hostile input. After each attempt, clusters that cannot be united are excluded.
 constexpr int max_trials = 8;
 
 } // namespace
@@ -93,7 +92,7 @@ std::optional<Index> middle_corner(const Mesh& mesh, Index f) {
     return apart ? std::optional(c[1]) : std::nullopt;
 }
 
-/// A round of removing flat triangles and splitting edges. Each face takes part once.
+/// A round of removing flat triangles and splitting edges. Each face is processed once.
 struct Round {
     std::vector<std::uint8_t> goes;
     std::vector<Insertion> insertions;
@@ -191,7 +190,8 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
         for (const Index c : corners)
             leaves.push_back({c, beside_edge(plain, faces[c], c), plain.vertex(c) == low});
         if (!winds_twice(plain.positions[low], plain.positions[high], std::move(leaves))) continue;
-        for (std::size_t i = 0; i + 1 < corners.size(); ++i) // adjacent pairs: all could be too many
+        for (std::size_t i = 0; i + 1 < corners.size();
+             ++i) // compares adjacent pairs only, because all pairs could be too many
             if (faces[corners[i]] != faces[corners[i + 1]])
                 pairs.push_back(std::minmax({faces[corners[i]], faces[corners[i + 1]]}));
     }
@@ -203,13 +203,14 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const Rings& rings,
                                                        const LooseEdges& edges) {
     const auto is_crowded = [&](Index e) { return edges.corners_of(e).size() > 2; };
-    if (!rings.empty()) { // then all positions are distinct
+    if (!rings.empty()) { // rings are known only if all positions are distinct
         bool any = false;
         for (Index e = 0; e < edges.size(); ++e) any |= is_crowded(e);
         if (!any) return {};
     }
     const auto place = lowest_at_place(mesh);
-    std::vector<std::uint8_t> is_shared(mesh.vertex_count(), 0); // by several vertices, or at a crowded edge
+    std::vector<std::uint8_t> is_shared(
+        mesh.vertex_count(), 0); // 1 for positions shared by several vertices, or at a crowded edge
     for (Index v = 0; v < place.size(); ++v)
         if (place[v] != v) is_shared[place[v]] = 1;
     const auto face_of = corner_faces(mesh);

@@ -120,7 +120,7 @@ class Assembly {
                 result_.wedge_vertex.push_back(vertex(mesh_.vertex_of_wedge(w)));
             for (const Index v : fresh_wedge_vertex_) result_.wedge_vertex.push_back(vertex(v));
         }
-        std::vector<Index> begin; // first corner of each kept face
+        std::vector<Index> begin; // [kept faces] first corner
         std::size_t corners = 3 * kept.size();
         if (!mesh_.all_triangles()) {
             for (const Index f : kept) begin.push_back(mesh_.face_size(f));
@@ -268,7 +268,7 @@ class Assembly {
     MeshProvenance provenance_;
     std::unordered_multimap<Vec3, Index, HashOfPlace> at_place_;   ///< vertices that pieces use, by cell
     std::vector<Index> of_node_;                                   ///< [new nodes] vertices, or none
-    std::map<std::tuple<Index, Index, Index, Index>, Index> made_; ///< wedges
+    std::map<std::tuple<Index, Index, Index, Index>, Index> made_; ///< wedges by source
 };
 
 } // namespace

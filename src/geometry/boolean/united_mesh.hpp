@@ -16,11 +16,11 @@ struct OuterPiece {
 /// The faces and corners of the arrangement's triangles. The arrangement's first points are the vertices of
 /// the mesh.
 struct TriangleFaces {
-    std::vector<Index> face;                   ///< [triangles]
-    std::vector<std::array<Index, 3>> corners; ///< [triangles] of the face
+    std::vector<Index> face;                   ///< [triangles] faces
+    std::vector<std::array<Index, 3>> corners; ///< [triangles] corners of the face
 };
 
-/// Where new vertices are snapped.
+/// How new vertices are snapped.
 struct SnapTolerance {
     double tolerance = 0; ///< new vertices within this distance of others merge with them
     bool single = false;  ///< rounds positions to 32-bit floats

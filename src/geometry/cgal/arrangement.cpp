@@ -25,14 +25,14 @@ using Corners = std::array<Quick::Point_3, 3>;
 
 Quick::Point_3 quick(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-/// On which side of the plane of t each of three points is.
+/// The side of t's plane of each of three points.
 std::array<int, 3> sides(const Corners& t, const Corners& points) {
     std::array<int, 3> side{};
     for (std::size_t i = 0; i < 3; ++i) side[i] = CGAL::orientation(t[0], t[1], t[2], points[i]);
     return side;
 }
 
-/// Whether a point of its plane is in the triangle, borders included.
+/// Whether a point in the triangle's plane is in the triangle, including its border.
 bool holds(const Corners& t, const Quick::Point_3& p) {
     for (std::size_t i = 0; i < 3; ++i)
         if (CGAL::coplanar_orientation(t[i], t[(i + 1) % 3], t[(i + 2) % 3], p) == CGAL::NEGATIVE)
@@ -40,8 +40,8 @@ bool holds(const Corners& t, const Quick::Point_3& p) {
     return true;
 }
 
-/// Whether the line through a and b, which are on both sides of it, passes through the triangle, borders
-/// included.
+/// Whether the line through a and b passes through the triangle, including its border. a and b are on
+/// different sides of its plane.
 bool passes_through(const Quick::Point_3& a, const Quick::Point_3& b, const Corners& t) {
     bool left = false, right = false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ class Meetings {
         find_all();
     }
 
-    /// By their first triangles.
+    /// The groups, sorted by their first triangles.
     std::vector<PlaneGroup> groups() {
         std::map<Index, PlaneGroup> by_set;
         for (Index i = 0; i < soup_.cut.size(); ++i) {
@@ -95,7 +95,7 @@ class Meetings {
         return {quick(soup_.points[a]), quick(soup_.points[b]), quick(soup_.points[c])};
     }
 
-    /// A corner, or where the side from low to high passes through triangle t.
+    /// A corner, or the point where the side from low to high passes through triangle t.
     struct End {
         Index low, high = none, triangle = none;
         bool is_corner() const { return high == none; }
@@ -106,8 +106,9 @@ class Meetings {
     /// The intersection of two triangles.
     struct Meeting {
         bool coplanar = false;
-        std::vector<End> ends;                     ///< ends of the common point or segment, each maybe twice
-        std::array<std::vector<Index>, 2> corners; ///< of the one on the other: where one has no area
+        std::vector<End> ends; ///< ends of the common point or segment; each may occur twice
+        std::array<std::vector<Index>, 2>
+            corners; ///< corners of each triangle on the other, if one has no area
     };
 
     /// Pairs are intersected in parallel; the results are applied in their order.
@@ -160,7 +161,7 @@ class Meetings {
         }
     }
 
-    /// Makes a node of each crossing, in the order of the pairs; the points are computed in parallel.
+    /// Makes a node for each crossing, in the order of the pairs. The points are computed in parallel.
     void make_crossings(const std::vector<Meeting>& meetings) {
         std::vector<End> fresh;
         for (const Meeting& m : meetings)
@@ -207,15 +208,16 @@ class Meetings {
 
     const TriangleSoup& soup_;
     ExactNodes& nodes_;
-    std::vector<Index> place_of_; ///< of triangles in cut
-    DisjointSets sets_;           ///< of coplanar triangles; by index in cut, as are:
+    std::vector<Index> place_of_; ///< [triangles] index in cut
+    DisjointSets sets_;           ///< sets of coplanar triangles; by index in cut, like the following members
     std::vector<std::vector<Index>> points_;
     std::vector<std::vector<Segment>> segments_;
-    std::vector<std::uint8_t> flat_; ///< without area
+    std::vector<std::uint8_t> flat_; ///< [cut] 1 for triangles without area
     std::unordered_map<std::tuple<Index, Index, Index>, Index, HashOfIndices> known_;
 };
 
-/// At most how often lines could cross in the group: pairs of boxes that meet, counted up to a limit.
+/// An upper bound for crossings of lines in the group: the number of pairs of boxes that meet, counted up to
+/// a limit.
 std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes,
                                std::size_t limit) {
     std::vector<std::pair<Index, Index>> lines;
@@ -241,7 +243,7 @@ std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group
 /// other axes. A table over positions along the axis limits comparisons to boxes near the point.
 class SlabsAlong {
   public:
-    /// places: by the axis that boxes are long along.
+    /// places: boxes by the axis along which they are long.
     SlabsAlong(std::size_t axis, const std::array<std::vector<Index>, 3>& places,
                const std::vector<Box>& boxes, const Box& bounds)
         : low_(bounds.min[axis]) {
@@ -274,7 +276,7 @@ class SlabsAlong {
         std::size_t bit;
     };
 
-    /// Monotone: never lower for a higher x.
+    /// The cell of x. Monotonic: never lower for a higher x.
     std::size_t cell(double x) const {
         const double at = (x - low_) * scale_;
         return at < 1 ? 0 : at < static_cast<double>(cells) ? static_cast<std::size_t>(at) : cells - 1;
@@ -283,10 +285,10 @@ class SlabsAlong {
     double low_, scale_ = 0;
     std::vector<Slab> slabs_;
     std::array<std::uint64_t, cells> sure_{}; ///< [cells] the bits of all points in a cell that is not near
-    std::array<bool, cells> is_near_{};       ///< [cells] a side of a box is in it
+    std::array<bool, cells> is_near_{};       ///< [cells] true if a side of a box is in the cell
 };
 
-/// [points] On which sides of which boxes they are.
+/// [points] The sides of the boxes on which each point is.
 std::vector<std::uint64_t> beside_boxes(const std::vector<Vec3>& points,
                                         const std::array<std::vector<Index>, 3>& places,
                                         const std::vector<Box>& boxes, const Box& bounds) {
@@ -327,7 +329,7 @@ struct Arrangement::Own {
         Box box;
         Index begin = 0, end = 0;
     };
-    Box bounds; ///< of all points
+    Box bounds; ///< bounds of all points
 
     void cut() {
         if (soup.pairs.size() > soup.max_pairs) {
@@ -349,7 +351,7 @@ struct Arrangement::Own {
         cut_in_planes(soup, groups, nodes, pieces, sides);
     }
 
-    /// The triangle of most pairs.
+    /// The triangle in the most pairs.
     Index most_met() const {
         std::vector<Index> count(soup.triangles.size(), 0);
         for (const auto& [s, t] : soup.pairs) {
@@ -366,8 +368,8 @@ struct Arrangement::Own {
     }
 
     /// Appends the triangles from begin to end as one run. Splits them into several runs if their common box
-    /// would be much larger than their boxes together, because rays would enter it in vain. Returns the box
-    /// of all.
+    /// would be much larger than the sum of their boxes. Otherwise many rays would enter the common box
+    /// without a hit. Returns the box of all.
     Box add_runs(Index begin, Index end, std::vector<Run>& all) const {
         if (end - begin == 1) return all.emplace_back(Run{box_of(begin), begin, end}).box;
         const std::size_t before = all.size();
@@ -424,7 +426,8 @@ struct Arrangement::Own {
         return parallel_reduce(soup.triangles.size(), Pairs{}, among, appended<Pairs::value_type>);
     }
 
-    /// The same. Boxes that are long the same way are of one tree.
+    /// The triangles whose boxes meet any of these boxes, for many boxes. Boxes that are long along the same
+    /// axis share a tree.
     Pairs meetings(const std::array<std::vector<Index>, 3>& places, const std::vector<Box>& boxes) const {
         constexpr std::size_t few = 16; // four bits for each box fit into 64 bits
         if (boxes.size() <= few) return meetings_of_few(places, boxes);
@@ -497,8 +500,8 @@ struct Ray {
         return a[i] < b[i] ? 1 : a[i] > b[i] ? -1 : 0;
     }
 
-    /// The side by rounded numbers, or 0 if they do not decide it: products of differences have a relative
-    /// error below 1e-15, and `from` is off by at most the size of its bounding box.
+    /// The side by rounded numbers, or 0 if uncertain. Products of differences have a relative error below
+    /// 1e-15, and the error of `from` is at most the size of its bounding box.
     int sure_side(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) const {
         const double x = b[i] - a[i], y = b[j] - a[j];
         const double left = x * (around.min[j] - a[j]), right = y * (around.min[i] - a[i]);
@@ -509,7 +512,7 @@ struct Ray {
         return area > bound ? 1 : area < -bound ? -1 : 0;
     }
 
-    /// 1 when it leaves through the front of the triangle, -1 when it enters, 0 when it does not pass
+    /// 1 if the ray leaves through the front of the triangle, -1 if it enters, 0 if it does not pass
     /// through.
     int passes(const Vec3& a, const Vec3& b, const Vec3& c) const {
         const int turn = side(a, b);
@@ -521,11 +524,11 @@ struct Ray {
     }
 };
 
-/// From the centre of three nodes along an axis that is not in their plane, out of the box.
+/// A ray from the centre of three nodes along an axis that is not in their plane, to the outside of the box.
 struct Sight {
     Ray ray;
-    Box along; ///< holds the ray as far as the triangles reach
-    int way;   ///< as Arrangement::Seen
+    Box along; ///< contains the ray as far as the triangles reach
+    int way;   ///< see Arrangement::Seen
 
     Sight(const ExactNodes& nodes, const std::array<Index, 3>& from, const Box& bounds) {
         const auto p = nodes.at(from[0]), q = nodes.at(from[1]), r = nodes.at(from[2]);

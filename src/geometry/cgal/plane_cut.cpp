@@ -38,7 +38,7 @@ using Point3 = ExactKernel::Point_3;
 /// The plane of a triangle, seen along an axis from where the triangle turns left.
 class Frame {
   public:
-    /// is_level: for each axis whether the triangle has one coordinate along it.
+    /// is_level: for each axis, whether all corners have the same coordinate.
     Frame(const Point3& a, const Point3& b, const Point3& c, const Vec3& rough_normal,
           const std::array<bool, 3>& is_level)
         : origin_(a) {
@@ -77,14 +77,14 @@ class Frame {
 using Pieces = std::vector<Arrangement::Piece>;
 using SideList = std::vector<std::pair<std::pair<Index, Index>, int>>;
 
-/// Cuts a group that is one triangle by floating point alone, in the steps of Cutter.
+/// Cuts a group of a single triangle with floating point only, in the steps of Cutter.
 class QuickCutter {
   public:
     QuickCutter(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes)
         : group_(group), nodes_(nodes), triangle_(group.triangles.front()),
           corners_(soup.triangles[triangle_]) {}
 
-    /// The first; false where that is not sure to be right.
+    /// The first step. False if the result is not certainly correct.
     bool triangulate() {
         if (group_.triangles.size() != 1) return false;
         view_ = view_of(nodes_.corners(triangle_));
@@ -123,13 +123,13 @@ class QuickCutter {
   private:
     struct Crossing {
         PlaneTriple planes;
-        std::optional<ExactNodes::Point> point; ///< where the place was found by it
+        std::optional<ExactNodes::Point> point; ///< set if the position was computed from it
         Vec3 place;
     };
 
     Index add(Index node) {
         const auto place = static_cast<Index>(here_.size());
-        constexpr std::size_t few = 32; // are found as fast without
+        constexpr std::size_t few = 32; // up to this many are found as fast without the map
         if (here_.size() < few) {
             const auto known = std::find(here_.begin(), here_.end(), node);
             if (known != here_.end()) return static_cast<Index>(known - here_.begin());
@@ -173,7 +173,7 @@ class QuickCutter {
     }
     bool is_left(Index a, Index b, Index c) const { return turns_left(exact(a), exact(b), exact(c)); }
 
-    /// For any number of points.
+    /// The triangulation, for any number of points.
     std::optional<FlatTriangles> filled() const {
         auto border = polygon::certain_border(cut_);
         if (!border) return {};
@@ -190,7 +190,7 @@ class QuickCutter {
         return exact_filling(region, points);
     }
 
-    /// Divides lines where they cross. False where that is not sure.
+    /// Divides lines where they cross. False if uncertain.
     bool cross_lines() {
         const auto pairs = polygon::certain_crossings(cut_);
         if (!pairs) return false;
@@ -236,16 +236,16 @@ class QuickCutter {
     std::array<Index, 3> corners_;
     PlaneView view_;
     polygon::CutTriangle cut_;
-    std::vector<std::array<Index, 3>> triangles_; ///< of its points
-    std::vector<Index> here_;                     ///< nodes, of its points
-    std::unordered_map<Index, Index> place_of_;   ///< in here_, where those are many
-    std::vector<Crossing> crossings_;             ///< its points behind those, until they are named
+    std::vector<std::array<Index, 3>> triangles_; ///< [local points] triangles
+    std::vector<Index> here_;                     ///< [local points] nodes
+    std::unordered_map<Index, Index> place_of_;   ///< index in here_, used if there are many nodes
+    std::vector<Crossing> crossings_;             ///< local points after those nodes, until they are named
 };
 
-/// Cuts one group in three steps. Only the second changes shared data.
+/// Cuts a group in three steps. Only the second step changes shared data.
 class Cutter {
   public:
-    /// The first: triangulates.
+    /// The first step: triangulates.
     Cutter(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes)
         : soup_(soup), group_(group), nodes_(nodes), frame_(frame_of(group.triangles.front())) {
         for (const Index t : group_.triangles)
@@ -359,7 +359,7 @@ class Cutter {
     const ExactNodes& nodes_;
     Frame frame_;
     Triangulation t_;
-    std::map<Index, Vertex> vertices_; ///< of the given nodes
+    std::map<Index, Vertex> vertices_; ///< vertices of the given nodes
     std::map<std::pair<Index, Index>, Constraint> constraints_;
 };
 
@@ -367,11 +367,11 @@ class Cutter {
 
 void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& groups, ExactNodes& nodes,
                    std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides) {
-    constexpr std::size_t together = 4096, few = 16; // as many are in memory at a time
+    constexpr std::size_t together = 4096, few = 16; // this many are in memory at a time
     for (std::size_t begin = 0; begin < groups.size(); begin += together) {
         const std::size_t count = std::min(together, groups.size() - begin);
         std::vector<std::unique_ptr<QuickCutter>> quick(count);
-        std::vector<std::unique_ptr<Cutter>> cutters(count); // of the other groups
+        std::vector<std::unique_ptr<Cutter>> cutters(count); // cutters of the other groups
         std::vector<Pieces> of_each(count);
         std::vector<SideList> sides_of_each(count);
         parallel_for(

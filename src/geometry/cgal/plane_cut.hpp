@@ -1,5 +1,5 @@
 #pragma once
-// Triangles of one plane cut along segments and along each other. Only for the files in this folder.
+// Cuts triangles of the same plane along segments and along each other. Only for this folder.
 
 #include "base/math/predicates.hpp"
 #include "base/math/random.hpp"
@@ -40,18 +40,18 @@ struct SideCrossing {
     Index low = none, high = none, triangle = none;
 };
 
-/// Three triangles, ascending, whose planes have one point in common.
+/// Three triangles, ascending, whose planes have a single common point.
 using PlaneTriple = std::array<Index, 3>;
 
-/// Given points, followed by constructed points. Where sides cross triangles, or three planes meet, the
-/// exact point is computed on request, because for most points their doubles decide all questions.
+/// The given points, followed by constructed points: where sides cross triangles, or three planes meet.
+/// Exact coordinates are computed on request, because doubles suffice for most points.
 class ExactNodes {
   public:
     using Point = ExactKernel::Point_3;
 
     explicit ExactNodes(const TriangleSoup& soup) : soup_(soup), points_(soup.points) {}
 
-    /// From now on a made point at the place of this one is this one.
+    /// From now on, a constructed point at the position of this point is this point.
     void know(Index point) {
         auto& here = at_place_[place_hash(points_[point])];
         for (const Index other : here)
@@ -71,7 +71,7 @@ class ExactNodes {
         }
         return add(here, Made(crossing, {none, none, none}, std::move(p)), place);
     }
-    /// Likewise where three planes meet.
+    /// Like the previous function, for the common point of three planes.
     Index find_or_add(const PlaneTriple& planes, std::optional<Point> p, const Vec3& place) {
         const auto [known, fresh] = of_planes_.try_emplace(planes, none);
         if (!fresh) return known->second;
@@ -98,12 +98,12 @@ class ExactNodes {
         const ExactKernel::FT whole = normal[0] * CGAL::cross_product(normal[1], normal[2]);
         std::array<ExactKernel::FT, 3> x{origin.x() + way.x() / whole, origin.y() + way.y() / whole,
                                          origin.z() + way.z() / whole};
-        for (const Index t : planes) // for a plane across an axis no number needs to be computed
+        for (const Index t : planes) // for a plane perpendicular to an axis, no number needs to be computed
             for (std::size_t k = 0; k < 3; ++k)
                 if (const auto there = level(t, k)) x[k] = *there;
         return {x[0], x[1], x[2]};
     }
-    /// The coordinate along an axis that all of a triangle has, if it has one.
+    /// The coordinate along an axis, if all corners of the triangle have the same.
     std::optional<double> level(Index triangle, std::size_t axis) const {
         const auto& [a, b, c] = soup_.triangles[triangle];
         const double x = points_[a][axis];
@@ -144,7 +144,7 @@ class ExactNodes {
         Made(Made&& other) noexcept
             : crossing(other.crossing), planes(other.planes), point(std::move(other.point)) {}
         SideCrossing crossing;
-        PlaneTriple planes;          ///< or none
+        PlaneTriple planes;          ///< the three planes, or none
         mutable std::once_flag once; // several threads may request it
         mutable std::optional<Point> point;
     };
@@ -164,7 +164,8 @@ class ExactNodes {
         return node;
     }
 
-    /// The intersection of a line along an axis and a plane across it: no number needs to be computed.
+    /// The intersection of a line along an axis and a plane perpendicular to it. No number needs to be
+    /// computed.
     std::optional<Point> plain_point_of(const SideCrossing& crossing) const {
         if (std::max(crossing.low, crossing.high) >= points_.size()) return {};
         const Vec3 &p = points_[crossing.low], &q = points_[crossing.high];
@@ -183,7 +184,7 @@ class ExactNodes {
     const TriangleSoup& soup_;
     const std::vector<Vec3>& points_;
     std::deque<Made> made_;
-    std::vector<Vec3> rounded_; ///< of made_
+    std::vector<Vec3> rounded_; ///< rounded positions of made_
     std::unordered_map<std::uint64_t, std::vector<Index>> at_place_;
     std::unordered_map<PlaneTriple, Index, HashOfIndices> of_planes_;
 };
@@ -201,12 +202,12 @@ struct PlaneGroup {
     std::vector<Segment> segments;
 };
 
-/// (triangle, node) -> the side of the triangle that contains the node.
+/// Maps (triangle, node) to the side of the triangle that contains the node.
 using SidesOfNodes = std::unordered_map<std::pair<Index, Index>, int, HashOfIndices>;
 
-/// Appends the pieces, group by group, by constrained triangulations with exact intersections, whose points
-/// become nodes. One triangle is cut by floating point alone where that is sure to be right
-/// (geometry/polygon/certain_triangulation.hpp). Parallel; the same for the same input.
+/// Appends the pieces, group by group. Uses constrained triangulations with exact intersections, whose
+/// points become nodes. A single triangle is cut with floating point only, if that is certainly correct
+/// (geometry/polygon/certain_triangulation.hpp). Parallel and deterministic.
 void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& groups, ExactNodes& nodes,
                    std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides);
 

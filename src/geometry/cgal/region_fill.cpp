@@ -17,7 +17,7 @@ namespace {
 
 using RegionEdge = FlatRegion::Edge;
 
-/// Which directed edges are of a border, and which run along it, whichever way.
+/// Finds directed edges of a border, and edges along it in either direction.
 class RegionBorder {
   public:
     explicit RegionBorder(std::vector<RegionEdge> edges) : directed_(std::move(edges)) {
@@ -53,7 +53,7 @@ class RegionFilling {
         t_.insert(points.begin(), points.end());
     }
 
-    /// None where points fall together, lines cross or pass through points, or the border does not close.
+    /// None if points coincide, lines cross or pass through points, or the border does not close.
     std::optional<FlatTriangles> run() {
         if (t_.number_of_vertices() != count_ || t_.dimension() != 2) return {};
         vertices_.resize(count_);
@@ -102,7 +102,7 @@ class RegionFilling {
                 if (!f->is_constrained(i) || !border_.passes(a, b))
                     enter(f->neighbor(i));
                 else if (!border_.holds(a, b))
-                    return false; // on its right
+                    return false; // on the right of the border
             }
         }
         return true;
@@ -125,7 +125,7 @@ class RegionFilling {
     const std::vector<RegionEdge>& lines_;
     RegionBorder border_;
     Triangulation t_;
-    std::vector<Vertex> vertices_; ///< of the points
+    std::vector<Vertex> vertices_; ///< vertices of the points
     std::vector<Face> open_;
 };
 
@@ -154,7 +154,7 @@ std::optional<FlatTriangles> proved_filling(const FlatRegion& region,
     using Quick = CGAL::Exact_predicates_inexact_constructions_kernel;
     double most = 0;
     for (const Vec2& p : region.points) most = std::max({most, std::abs(p.x), std::abs(p.y)});
-    if (!(most > 1e-60 && most < 1e60)) return {}; // a product could overflow, or vanish
+    if (!(most > 1e-60 && most < 1e60)) return {}; // a product could overflow or underflow
     RegionFilling<Quick>::Points points;
     for (Index i = 0; i < region.points.size(); ++i)
         points.push_back({{region.points[i].x, region.points[i].y}, i});

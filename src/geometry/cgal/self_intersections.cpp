@@ -30,8 +30,8 @@ using Segment = Kernel::Segment_3;
 using Triangle = Kernel::Triangle_3;
 using Corners = std::array<Vec3, 3>;
 
-/// Brings the vertices of two triangles into step: the shared ones first, in the same order. Returns how
-/// many.
+/// Reorders the vertices of two triangles so that shared vertices come first, in the same order. Returns
+/// their number.
 int share(std::array<Index, 3>& a, std::array<Index, 3>& b) {
     std::size_t shared = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -50,11 +50,13 @@ Point point(const Vec3& p) { return {p.x, p.y, p.z}; }
 /// Whether two triangles with area meet elsewhere than in their first `shared` corners. Exact.
 bool meet(const Corners& a, const Corners& b, int shared) {
     const Point a0 = point(a[0]), a1 = point(a[1]), a2 = point(a[2]), b2 = point(b[2]);
-    if (shared == 2) // they hinge on the edge; only folded flat onto each other do they meet elsewhere
+    if (shared ==
+        2) // triangles with a common edge meet elsewhere only if they are folded flat onto each other
         return CGAL::coplanar(a0, a1, a2, b2) && CGAL::coplanar_orientation(a0, a1, a2, b2) == CGAL::POSITIVE;
     const Point b0 = point(b[0]), b1 = point(b[1]);
     const Triangle ta(a0, a1, a2), tb(b0, b1, b2);
-    if (shared == 1) // a common point other than the vertex has one on the edge opposite to it in a or b
+    if (shared == 1) // if they have another common point than the vertex, one such point is on the opposite
+                     // edge of a or b
         return CGAL::do_intersect(Segment(a1, a2), tb) || CGAL::do_intersect(Segment(b1, b2), ta);
     return CGAL::do_intersect(ta, tb);
 }
@@ -70,7 +72,7 @@ class SelfIntersectionSearch::Search {
 
     using Pairs = std::vector<std::pair<Index, Index>>;
 
-    /// The first of many pairs, and their total number.
+    /// The first pairs of many, and their total number.
     struct First {
         std::size_t count = 0;
         Pairs pairs;
@@ -90,7 +92,7 @@ class SelfIntersectionSearch::Search {
         void trim(std::size_t limit) {
             if (pairs.size() / 2 >= limit && pairs.size() >= 4096) keep(limit);
         }
-        /// Drops all but the first `limit`, in no order.
+        /// Keeps only the first `limit` pairs, unsorted.
         void keep(std::size_t limit) {
             if (pairs.size() <= limit) return;
             const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(limit);
@@ -99,7 +101,7 @@ class SelfIntersectionSearch::Search {
         }
     };
 
-    /// Pairs that run into each other, and pairs that only touch.
+    /// Pairs that intersect, and pairs that only touch.
     struct Kinds {
         First real, touching;
         std::size_t box_pairs = 0;
@@ -127,7 +129,7 @@ class SelfIntersectionSearch::Search {
         note_plain_vertices();
     }
 
-    /// Whether that can be: not where polygons are cut into another number of triangles now.
+    /// Returns false if polygons now have another number of triangles, which makes the update impossible.
     bool move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
         plain_.clear();
         plain_vertices_.clear();
@@ -214,7 +216,7 @@ class SelfIntersectionSearch::Search {
             flag(g).store(1, relaxed);
         });
         known.too_many = known.box_pairs > max_box_pairs;
-        if (known.too_many) known.faces.clear(); // which of them were found depends on the threads
+        if (known.too_many) known.faces.clear(); // the faces found so far depend on the threads
         return known;
     }
 
@@ -262,7 +264,7 @@ class SelfIntersectionSearch::Search {
         first.count = first.pairs.size();
     }
 
-    /// How many vertices the two share, when they meet elsewhere; else -1.
+    /// The number of vertices that both share, if they meet elsewhere; otherwise -1.
     int facets_meet(const Facet& s, const Facet& t) const {
         return facets_meet(s, t, [] { return false; });
     }
@@ -278,8 +280,8 @@ class SelfIntersectionSearch::Search {
         return !surely_disjoint(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
     }
 
-    /// Around which no two triangles meet elsewhere, of four facets in a row: each facet has a lane, and
-    /// nothing at the vertices that are not plain.
+    /// The plain vertices of four consecutive facets, a lane for each facet. Vertices that are not plain
+    /// have no number.
     using PlainVertices = std::array<Int4, 3>;
     static constexpr std::int32_t nothing = -1;
 
@@ -298,7 +300,7 @@ class SelfIntersectionSearch::Search {
         });
     }
 
-    /// Which of the four facets from 4 n on have a plain vertex that is one of facet i, too: a bit each.
+    /// A bit for each of the four facets from 4 n on: 1 if it shares a plain vertex with facet i.
     unsigned share_plain_star(std::size_t i, std::size_t n) const {
         if (plain_vertices_.empty()) return 0;
         const PlainVertices &own = plain_vertices_[i / 4], &four = plain_vertices_[n];
@@ -313,11 +315,11 @@ class SelfIntersectionSearch::Search {
 
     std::size_t face_count_;
     Surface surface_;
-    std::vector<Box> boxes_; ///< [triangles]
+    std::vector<Box> boxes_; ///< [triangles] boxes
     BoxPairs pairs_;
-    std::vector<Facet> facets_;                 ///< along the curve
-    std::vector<Star> plain_;                   ///< [vertices] of plain_stars, or nothing
-    std::vector<PlainVertices> plain_vertices_; ///< of each four facets, or nothing
+    std::vector<Facet> facets_;                 ///< facets along the Morton curve
+    std::vector<Star> plain_;                   ///< [vertices] result of plain_stars, or empty
+    std::vector<PlainVertices> plain_vertices_; ///< per four facets, or empty
 };
 
 SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh, const Box& frame)

@@ -38,8 +38,8 @@ struct Types {
     using Constraint = typename Triangulation::Constraint_id;
 };
 
-/// Rounds the crossings of edges. Fast, and correct unless edges cross so near to other edges that the
-/// rounded point is on the wrong side; CGAL then loses an edge.
+/// Rounds the crossings of edges. Fast, and correct unless a rounded crossing is on the wrong side of a
+/// nearby edge; CGAL then loses an edge.
 using Rounded = Types<CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Exact_predicates_tag>;
 /// Keeps crossings exact: always correct, and several times slower.
 using Exact = Types<CGAL::Exact_predicates_exact_constructions_kernel, CGAL::Exact_intersections_tag>;
@@ -203,8 +203,8 @@ class Filler {
         return std::all_of(left.begin(), left.end(), [](const auto& edge) { return edge.second == 0; });
     }
 
-    /// Spreads the number of turns from the outside in: it changes by the contours' count at every edge
-    /// crossed.
+    /// Propagates the number of turns from the outside inwards. It changes by the contours' count at every
+    /// crossed edge.
     void count_turns() {
         std::vector<Face> stack{t_.infinite_face()};
         stack.back()->info().known = true;
@@ -244,11 +244,11 @@ class Filler {
     bool lost_ = false; ///< the path of an edge is not made of edges of the triangulation
     Filling out_;
     Triangulation t_;
-    std::vector<Vertex> vertices_; ///< [points], of the lowest at each place
+    std::vector<Vertex> vertices_; ///< [points] vertices, set for the lowest point at each position
     std::vector<std::optional<Constraint>>
-        constraints_; ///< [edges], none for an edge between points at one place
+        constraints_; ///< [edges] constraints; none for an edge between points at the same position
     std::map<std::pair<Index, Index>, int>
-        along_; ///< the contours' count from the lower to the higher number
+        along_; ///< the contours' count for an edge from the lower to the higher vertex number
 };
 
 } // namespace

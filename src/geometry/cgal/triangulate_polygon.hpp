@@ -8,11 +8,11 @@
 
 namespace facetmill {
 
-/// Directed edges between points, counted: at every point as many arrive as leave.
+/// Directed edges between points, with counts. As many edges arrive at every point as leave it.
 struct Contours {
     struct Edge {
         Index from = 0, to = 0; ///< points
-        int count = 1;          ///< how many times; negative: the other way
+        int count = 1;          ///< number of times; negative: in the opposite direction
     };
     std::vector<Vec2> points;
     std::vector<Edge> edges;
@@ -22,11 +22,11 @@ struct Contours {
 struct Filling {
     struct Added {
         Vec2 at;
-        Index edge; ///< an edge that contains it
-        double t;   ///< where: 0 at its from, 1 at its to
+        Index edge; ///< an edge that contains the point
+        double t;   ///< position on the edge: 0 at `from`, 1 at `to`
     };
-    /// Counter-clockwise; each once per turn that the contours make around it, reversed when they turn
-    /// clockwise.
+    /// Counter-clockwise. Each triangle occurs once per turn of the contours around it, and is reversed if
+    /// they turn clockwise.
     std::vector<std::array<Index, 3>> triangles;
     std::vector<Index> same;  ///< [points] the lowest point at the same position; triangles use only these
     std::vector<Added> added; ///< numbered after the points
@@ -34,9 +34,9 @@ struct Filling {
     std::vector<Index> path; ///< the points strictly between the ends of each edge, from its from to its to
 };
 
-/// Constrained Delaunay triangulation with exact predicates. Requires finite coordinates. The boundary of
-/// the triangles is exactly the edges along their paths (coincident points counted as merged), whatever the
-/// input. Deterministic.
+/// Constrained Delaunay triangulation with exact predicates. Requires finite coordinates. For any input, the
+/// boundary of the triangles consists exactly of the edges along their paths (coincident points count as
+/// merged). Deterministic.
 [[nodiscard]] Filling fill(const Contours& contours);
 
 } // namespace facetmill

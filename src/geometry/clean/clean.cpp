@@ -1,5 +1,6 @@
 #include "geometry/clean/clean.hpp"
 
+#include "base/math/numbers.hpp"
 #include "base/progress.hpp"
 #include "geometry/boolean/solids.hpp"
 #include "geometry/clean/steps.hpp"
@@ -31,7 +32,7 @@ void tell_of_crossings(Work& work, std::string why, const Vec3& at) {
     work.not_done.push_back({"self_intersections", std::move(why), at});
 }
 
-/// The intersections of the mesh. If too many boxes meet, it searches none and reports that.
+/// The intersections of the mesh. If too many boxes meet, does not search and reports this.
 SelfIntersections affordable_crossings(Work& work) {
     const std::size_t free = work.max_box_pairs() - work.budget.box_pairs;
     SelfIntersections found = crossings(work.mesh, {}, work.max_box_pairs());
@@ -111,7 +112,7 @@ bool one_round(Work& work, const CleanSettings& s) {
         did(resolve_t_junctions(work, s.t_junctions == Nearness::near ? s.tolerance : 0));
     if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.tolerance : 0));
     steps.next();
-    if (s.holes && s.non_manifold) { // holes that touch at a vertex would merge when the vertex is split
+    if (s.holes && s.non_manifold) { // splitting vertices afterwards would merge holes that touch at a vertex
         const std::size_t told = work.not_done.size();
         did(fill_holes(work, *s.holes, nullptr, may_cross));
         work.not_done.resize(told); // holes that stay are reported below
@@ -125,7 +126,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.components) did(remove_components(work, *s.components));
     if (s.inner_components) did(remove_inner_components(work));
     if (s.isolated && !work.cloud) did(remove_isolated(work));
-    // Last, so that no other step processes surfaces only a few rounding steps apart.
+    // This step is last, so that no other step processes surfaces that are only a few rounding steps apart.
     if (s.apart && s.single && s.non_manifold && s.weld != Nearness::off && !changed) did(move_apart(work));
     return changed;
 }
@@ -133,6 +134,38 @@ bool one_round(Work& work, const CleanSettings& s) {
 /// The changes to the attributes; dropping faces and vertices does not change the remaining values.
 AttributeChanges changes_of(const Mesh& mesh, const AttributeChanges& mixed) {
     return mixed.empty() ? kept_changes(mesh.attributes) : mixed;
+}
+
+/// Runs rounds until one changes nothing. Returns their number.
+int run_rounds(Work& work, const CleanSettings& settings) {
+    constexpr int max_rounds = 32;
+    int count = 0;
+    ProgressRounds rounds;
+    for (bool changed = true; changed && count < max_rounds; ++count, rounds.next())
+        changed = one_round(work, settings);
+    return count;
+}
+
+bool rounding_moves(const Mesh& mesh) {
+    return std::any_of(mesh.positions.begin(), mesh.positions.end(),
+                       [](const Vec3& p) { return is_finite(p) && as_float32(p) != p; });
+}
+
+/// Whether faces intersect now that did not before. If some intersected before, those stay and the new ones
+/// are reported, because they cannot be told apart.
+bool is_tangled_by_rounding(Work& work, const Mesh& before) {
+    const SelfIntersections now = affordable_crossings(work);
+    if (now.too_many || now.count == 0) return false;
+    const SelfIntersections then = crossings(before, {}, work.max_box_pairs());
+    if (!then.too_many && then.count == 0) return true;
+    if (then.too_many || now.count > then.count)
+        work.not_done.push_back(
+            {"precision",
+             fmt::format("{} pairs of faces intersect after rounding to 32-bit floats, {} "
+                         "before; self_intersections: all resolves them",
+                         now.count, then.too_many ? "an unknown number" : fmt::format("{}", then.count)),
+             corner_mean(work.mesh, now.pairs[0].first)});
+    return false;
 }
 
 } // namespace
@@ -145,15 +178,19 @@ std::size_t CleanCounts::total() const {
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {
-    constexpr int max_rounds = 32;
     Work work;
+    std::optional<Mesh> exact; // before rounding, if nothing else would notice what it does
+    if (settings.single && settings.self_intersections == Untangle::off && rounding_moves(mesh)) exact = mesh;
     work.mesh = std::move(mesh);
     work.budget = settings.budget;
     work.cloud = work.mesh.face_count() == 0;
     CleanResult result;
-    ProgressRounds rounds;
-    for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds, rounds.next())
-        changed = one_round(work, settings);
+    result.rounds = run_rounds(work, settings);
+    if (exact && is_tangled_by_rounding(work, *exact)) {
+        CleanSettings untangling = settings;
+        untangling.self_intersections = Untangle::all;
+        result.rounds += run_rounds(work, untangling);
+    }
     result.changes = changes_of(work.mesh, work.changes);
     result.mesh = std::move(work.mesh);
     result.counts = work.counts;

@@ -14,14 +14,14 @@ enum class Nearness { off, exact, near };
 enum class HoleFill {
     minimal, ///< triangles between the outline's vertices, with minimal dihedral angle and area
              ///< (span_outline)
-    planar,  ///< the outline as a polygon, where it is planar within 32-bit rounding
+    planar,  ///< the outline as a polygon, if it is planar within 32-bit rounding
     smooth,  ///< like minimal, then refined to the density around it and faired (fair_patch)
 };
 
 /// How to repair intersecting faces.
 enum class Untangle {
     off,
-    local, ///< replaces the faces around each intersection, where that removes it
+    local, ///< replaces the faces around each intersection, if this removes it
     unite, ///< merges closed components that intersect each other or themselves into a solid
     all    ///< unite, then local for the rest
 };
@@ -57,8 +57,8 @@ struct CleanSettings {
     Nearness weld = Nearness::exact;        ///< merges equal positions; near: also boundary ends
     Nearness stitch = Nearness::off;        ///< merges coincident boundary edges and their ends
     Nearness t_junctions = Nearness::exact; ///< inserts vertices of other boundary edges into boundary edges
-    bool degenerate = true;                 ///< removes faces of exactly zero area, and repeated corners
-    bool duplicates = true;                 ///< keeps one face per set with the same vertices; no inner walls
+    bool degenerate = true;   ///< removes faces with an area of exactly zero, and repeated corners
+    bool duplicates = true;   ///< keeps one face per set with the same vertices; no inner walls
     bool non_manifold = true; ///< splits edges of more than two faces and vertices of several fans
     /// Needs single, weld and non_manifold. Moves vertices that still coincide apart by a few float32 steps,
     /// because formats that store only triangles would merge them (move_apart).
@@ -70,7 +70,10 @@ struct CleanSettings {
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
     double tolerance = 0; ///< for Nearness::near
-    bool single = false;  ///< rounds positions to 32-bit floats, before the first step and at new vertices
+    /// Rounds positions to 32-bit floats, before the first step and at new vertices. If self_intersections is
+    /// off and rounding makes the first faces intersect, they are resolved as by `all`. If others intersected
+    /// before, the new ones are reported.
+    bool single = false;
     UntangleBudget budget;
 };
 
@@ -90,9 +93,9 @@ struct CleanCounts {
                 open_component_faces = 0, components = 0, component_faces = 0, inner_components = 0,
                 inner_component_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
     std::size_t united_components = 0; ///< closed components that intersected and were united
-    std::size_t refined_faces = 0;     ///< cut along intersections, counted once per pass
-    std::size_t covered_faces = 0;     ///< without intersections, inside another component
-    /// Edges of more than two faces that unions made where solids touch; 0 if non_manifold splits them.
+    std::size_t refined_faces = 0;     ///< faces cut along intersections, counted once per pass
+    std::size_t covered_faces = 0;     ///< faces without intersections, inside another component
+    /// Edges with more than two faces that unions made where solids touch. 0 if non_manifold splits them.
     std::size_t touching_edges = 0;
     std::size_t moved_apart = 0; ///< vertices that shared their position
     double farthest_apart = 0;   ///< the longest such move, in mesh units
@@ -103,10 +106,10 @@ struct CleanCounts {
 struct CleanResult {
     Mesh mesh;
     CleanCounts counts;
-    std::vector<NotDone> not_done; ///< in the last round
+    std::vector<NotDone> not_done; ///< repairs skipped in the last round
     AttributeChanges changes;
-    int rounds = 0;        ///< the last changed nothing, unless the limit was reached
-    UntangleBudget budget; ///< remaining
+    int rounds = 0;        ///< number of rounds; the last changed nothing, unless the limit was reached
+    UntangleBudget budget; ///< the remaining budget
     /// A union was skipped because of insufficient memory; with more, the result may differ.
     bool short_of_memory = false;
 };
@@ -123,9 +126,10 @@ struct CleanResult {
 [[nodiscard]] CleanResult clean(Mesh mesh, const CleanSettings& settings);
 
 /// The components of a mesh (faces connected across edges), where a cavity belongs to the solid around it. A
-/// cavity is a closed component with a negative volume. It joins the innermost closed outward component that
-/// contains it, if any. Containment is decided exactly, by a ray from one of its vertices. Components that
-/// are open or inconsistently oriented stay separate. Numbered by first face. O(n log n).
+/// cavity is a closed component with a negative volume. It belongs to the innermost closed outward component
+/// that contains it, if any. Containment is decided exactly, by a ray from one of its vertices. Components
+/// that are open or inconsistently oriented stay separate. Components are numbered by their first face. O(n
+/// log n).
 [[nodiscard]] Components solid_components(const Mesh& mesh);
 
 } // namespace facetmill

@@ -14,8 +14,8 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int max_rings = 4;
-/// An attempt takes time proportional to the mesh, and most meshes need one per ring. After half of them, no
-/// region grows further.
+/// An attempt takes time proportional to the mesh; most meshes need one per ring. After half of the
+/// attempts, no region grows further.
 constexpr int max_attempts = 32;
 
 /// The edges of a single face as (low, high), ascending.
@@ -28,7 +28,7 @@ EdgeList boundary_of(const Mesh& mesh) {
 /// The Euler characteristic V - E + F of each group of faces, including boundaries.
 std::map<Index, int> euler_of_groups(const Mesh& mesh, const std::vector<Index>& groups) {
     std::map<Index, int> euler;
-    std::set<std::pair<Index, Index>> vertices; // (group, vertex)
+    std::set<std::pair<Index, Index>> vertices; // pairs of group and vertex
     std::set<std::pair<Index, std::pair<Index, Index>>> edges;
     for (Index f = 0; f < groups.size(); ++f) {
         if (groups[f] == none) continue;
@@ -120,8 +120,8 @@ class Untangler {
     double area(Index f) const { return length(area_vector(mesh_, f)) / 2; }
     Index place(Index corner) const { return place_[mesh_.vertex(corner)]; }
 
-    /// A group number for each flagged face: equal for faces that share a position or intersect. none for
-    /// others.
+    /// A group number for each flagged face, equal for faces that share a position or intersect. none for
+    /// other faces.
     std::vector<Index> groups_of(const std::vector<std::uint8_t>& flags) const {
         DisjointSets sets(mesh_.vertex_count());
         for (Index f = 0; f < flags.size(); ++f)
@@ -174,7 +174,7 @@ class Untangler {
 
     /// Gives up knots that would remove half of a component.
     bool give_up_large(const std::vector<std::uint8_t>& region, const std::vector<Index>& groups) {
-        std::map<std::pair<Index, Index>, double> going; // removed area, of each group from each component
+        std::map<std::pair<Index, Index>, double> going; // removed area by group and component
         for (Index f = 0; f < region.size(); ++f)
             if (region[f]) going[{groups[f], components_.of_face[f]}] += area(f);
         std::set<Index> large;
@@ -191,7 +191,7 @@ class Untangler {
                             Work& trial) const {
         const auto kept = faces_without(region);
         trial.mesh = keep_faces(mesh_, kept);
-        std::vector<std::uint8_t> goes(mesh_.vertex_count(), 0); // vertices that lose all their faces
+        std::vector<std::uint8_t> goes(mesh_.vertex_count(), 0); // 1 for vertices that lose all their faces
         std::vector<Index> group_of_vertex(mesh_.vertex_count(), none);
         for (Index f = 0; f < region.size(); ++f)
             for (Index c = mesh_.face_begin(f); region[f] && c < mesh_.face_end(f); ++c) {
@@ -223,8 +223,8 @@ class Untangler {
         return failed;
     }
 
-    /// The groups whose patches have an open edge or an intersecting face. groups: of the old vertices;
-    /// patches: of the new faces.
+    /// The groups whose patches have an open edge or an intersecting face. groups: the groups of the old
+    /// vertices. patches: the groups of the new faces.
     static std::set<Index> failures(const Mesh& mesh, const EdgeList& before,
                                     const std::vector<Index>& groups, const std::vector<Index>& patches,
                                     std::size_t max_box_pairs) {
@@ -255,7 +255,7 @@ class Untangler {
     std::vector<Index> place_;
     EdgeList open_;
     Components components_;
-    std::vector<double> areas_; ///< [components]
+    std::vector<double> areas_; ///< [components] areas
     std::vector<Knot> knots_;
     int attempts_ = 0;
 };

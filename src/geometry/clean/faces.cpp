@@ -28,7 +28,8 @@ std::size_t drop_repeated_corners(Mesh& mesh, std::vector<std::uint8_t>& gone) {
         for (Index c = begin; c < end; ++c)
             if (mesh.vertex(c) != mesh.vertex(previous_corner(c, begin, end)))
                 corners.push_back(mesh.corners[c]);
-        if (corners.size() - first < 3) { // without area: it is removed as a whole, and unchanged until then
+        if (corners.size() - first <
+            3) { // a face without area: removed as a whole later, and unchanged until then
             corners.resize(first);
             corners.insert(corners.end(), mesh.corners.begin() + begin, mesh.corners.begin() + end);
             gone[f] = 1;
@@ -89,8 +90,8 @@ std::vector<int> balances(const Mesh& mesh, const EdgeTable& edges) {
     return balance;
 }
 
-/// Flags the cancelling faces whose patch stands on other faces, along edges. If the mesh is closed, a common
-/// vertex is enough, because keeping one side would leave a boundary.
+/// Flags the cancelling faces whose patch is attached to other faces along edges. If the mesh is closed, a
+/// common vertex is enough, because keeping one side would leave a boundary.
 std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const EdgeTable& edges, bool closed,
                                            const std::vector<std::uint8_t>& cancels) {
     const auto faces = corner_faces(mesh);
@@ -125,8 +126,9 @@ struct Doubles {
     int ways = 0;
 };
 
-/// Flags the sets that keep all faces left after cancelling, instead of one. They do if the faces around
-/// occur as often, so that a single one would leave boundary edges. Decided for connected patches of sets.
+/// Flags the sets that keep all faces left after cancelling, instead of one. They do if the surrounding
+/// faces occur equally often, because a single face would leave boundary edges. Decided for connected
+/// patches of sets.
 std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, const std::vector<int>& balance,
                                     const std::vector<Doubles>& all) {
     DisjointSets patches(all.size());
@@ -143,7 +145,8 @@ std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, co
             at->second.second += mesh.vertex(c) == edges.edges[e].low ? more : -more;
         }
     }
-    std::vector<int> better(all.size(), 0); // [patches] boundary edges with one face, minus those with all
+    std::vector<int> better(
+        all.size(), 0); // [patches] boundary edges if one face stays, minus boundary edges if all stay
     for (const auto& [e, x] : excess)
         better[patches.find(static_cast<Index>(x.first))] += (balance[e] != x.second) - (balance[e] != 0);
     std::vector<std::uint8_t> many(all.size());
@@ -193,7 +196,7 @@ bool remove_duplicates(Work& work) {
     for (std::size_t g = 0; g < all.size(); ++g) {
         const Index first = all[g].faces[0];
         const bool sheet = cancels[first] && !stands[first];
-        int left[2]; // remaining faces opposite to the first, and like the first
+        int left[2]; // remaining faces with the opposite and with the same orientation as the first
         left[all[g].ways >= 0] = sheet || !cancels[first] ? (many[g] ? std::abs(all[g].ways) : 1) : 0;
         left[all[g].ways < 0] = sheet && beside ? 1 : 0;
         for (const Index f : all[g].faces) {
@@ -306,7 +309,7 @@ bool remove_open_components(Work& work) {
 
 bool remove_inner_components(Work& work) {
     const Mesh& mesh = work.mesh;
-    const Components components = face_components(mesh, false); // same component across all edges
+    const Components components = face_components(mesh, false); // all edges connect components
     if (components.count < 2) return false;
     const auto closed = closed_components(mesh, components);
     std::set<std::pair<Index, Index>> touching;

@@ -25,7 +25,7 @@ namespace {
 /// of the edge to corner i + 1.
 struct Outline {
     std::vector<Index> wedges;
-    std::vector<Index> faces; ///< [i] across the edge from i to i + 1
+    std::vector<Index> faces; ///< [i] the face across the edge from i to i + 1
 };
 
 class Outlines {
@@ -76,9 +76,9 @@ class Outlines {
     }
     Index next(Index c) const { return next_corner(mesh_, faces_[c], c); }
 
-    /// The boundary edge after c's, around the vertex at its end; none if there is none.
+    /// The next boundary edge after c's, around the vertex at its end, or none.
     Index follow(Index c) const {
-        Index at = next(c); // leaves the vertex
+        Index at = next(c); // an edge that leaves the vertex
         for (std::size_t turns = 0; turns <= mesh_.corner_count(); ++turns) {
             const Index e = edges_.corner_edge[at];
             if (e == none) return none;
@@ -268,7 +268,7 @@ class Filler {
 
     /// The triangles of two rings of faces around the outline.
     HolePatch surroundings(const Outline& o) const {
-        std::map<Index, Index> number; // of vertices
+        std::map<Index, Index> number; // numbers of vertices
         for (Index i = 0; i < o.wedges.size(); ++i) number.try_emplace(vertex(o, i), i);
         std::set<Index> faces, seen;
         for (const auto& [v, i] : number) seen.insert(v);
@@ -435,7 +435,7 @@ class Filler {
     VertexLists corners_;
     std::vector<Index> face_of_;
     Patches patches_;
-    std::vector<std::size_t> outline_of_face_; ///< faces of the patches
+    std::vector<std::size_t> outline_of_face_; ///< outline of each patch face
     const std::set<std::size_t>* left_ = nullptr;
     std::size_t filled_ = 0, outline_ = 0;
 };

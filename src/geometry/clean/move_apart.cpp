@@ -40,13 +40,13 @@ Box grown(Box box, double by) {
 using FacePairs = std::vector<std::pair<Index, Index>>;
 
 struct Meetings {
-    FacePairs crossing, all; ///< ascending; all: also pairs that only touch
+    FacePairs crossing, all; ///< ascending pairs; `all` includes pairs that only touch
 };
 
 /// The faces near a vertex as a separate mesh.
 struct Neighbourhood {
     Mesh mesh;
-    Index vertex = none;              ///< its number in the mesh
+    Index vertex = none;              ///< the vertex's number in the mesh
     std::vector<std::uint8_t> around; ///< [faces] 1 for faces at the vertex
 
     Meetings meetings() const {
@@ -72,8 +72,8 @@ class Turns {
         before_ = now();
     }
 
-    /// True if each corner turns as before: then no face was reversed or lost its area. Straight corners of
-    /// larger faces may turn either way.
+    /// True if each corner turns as before, so that no face was reversed or lost its area. Straight corners
+    /// of larger faces may turn either way.
     bool are_kept() const {
         const std::vector<int> after = now();
         for (std::size_t i = 0; i < after.size(); ++i)
@@ -100,7 +100,7 @@ class Turns {
     }
 
     const Neighbourhood& n_;
-    std::vector<std::size_t> axes_; ///< [faces]
+    std::vector<std::size_t> axes_; ///< [faces] projection axis
     std::vector<int> before_;
     mutable std::vector<std::uint8_t> of_triangle_;
 };
@@ -121,7 +121,7 @@ class Separation {
         for (const auto& [_, vertices] : places) {
             if (vertices.size() == 1) continue;
             const Vec3 at = mesh_.positions[vertices[0]];
-            std::size_t there = vertices.size(); // the first stays, if the others can be moved
+            std::size_t there = vertices.size(); // the first vertex stays, if the others can be moved
             const bool was_stuck = work_.stuck.contains({at.x, at.y, at.z});
             for (auto v = vertices.rbegin(); v != vertices.rend() && there > 1 && !was_stuck && !is_spent();
                  ++v)
@@ -179,9 +179,9 @@ class Separation {
         return n;
     }
 
-    /// Directions to try: the 26 along and between the axes, and along the mean normal of the vertex's faces.
-    /// Others point to its neighbours and to the centres of its faces. Their longest coordinate is 1. Those
-    /// to the neighbours come first, because they pull the fan away from the others.
+    /// Directions to try: the 26 along and between the axes, and along the mean normal of the vertex's
+    /// faces. Others point to its neighbours and to the centres of its faces. Their longest coordinate is 1.
+    /// Directions to the neighbours come first, because they pull the fan away from the others.
     std::vector<Vec3> directions(Index v) const {
         Vec3 towards, normal;
         std::vector<Vec3> all;
@@ -243,8 +243,8 @@ class Separation {
         return least;
     }
 
-    /// True if the vertex may move to this position. No other vertex may be there, no face may be reversed or
-    /// lose its area, and no new pair of faces may intersect or touch.
+    /// True if the vertex may move to this position. No other vertex may be at this position, and no face
+    /// may be reversed or lose its area. No new pair of faces may intersect or touch.
     static bool is_sound(Neighbourhood& near, const Turns& turns, const Meetings& before, const Vec3& to) {
         if (!is_finite(to)) return false;
         const auto& all = near.mesh.positions;
@@ -283,7 +283,7 @@ class Separation {
     Mesh& mesh_;
     double step_;
     VertexLists corners_;
-    std::vector<Index> faces_; ///< [corners]
+    std::vector<Index> faces_; ///< [corners] faces
     BoxTree tree_;
 };
 

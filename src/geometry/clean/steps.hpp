@@ -1,6 +1,6 @@
 #pragma once
-// The steps of clean, one function each. Each changes the mesh in place, adds to the counts, and returns true
-// if it changed anything.
+// The steps of clean. Each function changes the mesh in place, adds to the counts, and returns true if it
+// changed anything.
 
 #include "geometry/boolean/loose_edges.hpp"
 #include "geometry/clean/clean.hpp"
@@ -19,7 +19,7 @@ struct Work {
     Mesh mesh;
     CleanCounts counts;
     std::vector<NotDone> not_done;
-    AttributeChanges changes; ///< from the last step that mixed attributes
+    AttributeChanges changes; ///< changes by the last step that mixed attributes
     bool untangled = false;   ///< the mesh is known to have no intersections
     /// The reports about intersections that could not be repaired; valid until the mesh changes.
     std::optional<std::vector<NotDone>> tangled = {};
@@ -40,7 +40,7 @@ struct Work {
 /// Rounds positions to 32-bit floats, if the results are finite.
 bool round_to_single(Work& work);
 /// Merges vertices at the same position into the lowest. comes_apart: non_manifold is on (see
-/// split_non_manifold). Then vertices stay unmerged where their faces would be separated again.
+/// split_non_manifold). Then vertices stay unmerged if their faces would be separated again.
 bool weld_equal(Work& work, bool comes_apart);
 /// In index order, merges each end of a boundary edge into the nearest kept end within tolerance. Vertices of
 /// the same face are never merged, so that no face loses its area. Inner vertices stay unchanged.
@@ -48,38 +48,39 @@ bool weld_near(Work& work, double tolerance);
 /// Merges boundary edges with opposite directions whose ends are within tolerance, the nearest pairs first.
 /// Their ends merge into the lower vertices.
 bool stitch(Work& work, double tolerance);
-/// Removes corners that repeat the vertex before them, then faces without area (exact). Inserts their
-/// vertices into the edges across, where removal opens the surface, so that a closed surface stays closed.
+/// Removes corners that repeat the vertex before them, then faces without area (exact). If removal would
+/// open the surface, inserts their vertices into the opposite edges, so that a closed surface stays closed.
 bool remove_degenerate(Work& work);
 /// Keeps one face of each set with the same vertices, in the majority's orientation. It keeps as many as are
-/// left after cancelling if the faces around occur as often, so that a closed surface stays closed.
-/// Cancelling faces (equal numbers in both orientations) are all removed if they form a wall or fin on other
-/// faces. In a closed surface, a common vertex is enough. If they form a separate sheet, one of each stays.
+/// left after cancelling if the surrounding faces occur equally often, so that a closed surface stays
+/// closed. Cancelling faces (equal numbers in both orientations) are all removed if they form a wall or fin
+/// on other faces. In a closed surface, a common vertex is enough. If they form a separate sheet, one of
+/// each stays.
 bool remove_duplicates(Work& work);
 /// Inserts a vertex into a boundary edge of another face if it is on that edge (near: within tolerance). The
 /// vertex must have a boundary edge along it.
 bool resolve_t_junctions(Work& work, double tolerance);
-/// See part_fans and divide_crowded_edges. If an edge's midpoint cannot be exactly on it, the edge stays
-/// where faces would intersect or lose their area, and is reported. `left`: receives the edges of the
-/// resulting mesh, if known.
+/// See part_fans and divide_crowded_edges. If an edge's midpoint cannot be exactly on it, and faces would
+/// intersect or lose their area, the edge stays and is reported. `left`: receives the edges of the resulting
+/// mesh, if known.
 bool take_apart_non_manifold(Work& work, const EdgeDivision& how, std::optional<EdgeTable>* left = nullptr);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of boundary edges according to the settings; holes that touch at a vertex are filled
-/// separately. Loops with an edge of other_than stay open. So do loops whose patch would intersect faces
-/// (unless may_cross), or would lie on adjacent faces within 32-bit rounding. The border of a flat sheet is
-/// not a hole.
+/// separately. Loops with an edge of other_than stay open, as do loops whose patch would intersect faces
+/// (unless may_cross), or cover adjacent faces within 32-bit rounding. The border of a flat sheet is not a
+/// hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
-/// Removes components with boundary edges, if a closed one is left.
+/// Removes components with boundary edges, if a closed component is left.
 bool remove_open_components(Work& work);
 bool remove_components(Work& work, const ComponentSettings& settings);
 /// Removes closed components that are inside other closed components and touch none.
 bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
 /// Moves vertices of faces that share a position apart; one of them stays. It uses the smallest movement for
-/// which, exactly, no face is reversed or loses its area, and no new pair of faces intersects or touches. The
-/// movement is 2, 4 ... 256 float32 steps along each axis (as large as at the farthest coordinate), and at
-/// most an eighth of its shortest edge. Vertices without such a movement stay and are reported.
+/// which, exactly, no face is reversed or loses its area, and no new pair of faces intersects or touches.
+/// The movement is 2, 4 ... 256 float32 steps (of the farthest coordinate) along each axis, and at most an
+/// eighth of the shortest edge. Vertices without such a movement stay and are reported.
 ///
 /// Requires 32-bit positions. After weld_equal and take_apart_non_manifold, vertices that still coincide
 /// belong to separate fans. O(n log n), plus the cost of the faces around each vertex, limited by
@@ -94,7 +95,7 @@ bool move_apart(Work& work);
 bool are_distinct(const std::vector<Index>& place);
 struct CrossingsAndRings {
     SelfIntersections found;
-    Rings rings; ///< of a triangle mesh, unless positions coincide
+    Rings rings; ///< rings of a triangle mesh, unless positions coincide
 };
 /// Up to `limit` pairs, without pairs that contain a lost face (lost_faces). place: result of
 /// lowest_at_place.
@@ -120,10 +121,11 @@ inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// unchanged too.
 bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
                   const CleanSettings& settings);
-/// Repairs each place of intersection separately: removes the intersecting faces, if necessary with up to
-/// four rings around them, and fills the hole. A place stays unchanged if that would leave an intersection or
-/// a new boundary edge, or change the topology. It also does if that would remove half of a component, or
-/// exceed the budget. Faces that touch only at vertices with the same position do not count.
+/// Repairs each intersection separately: removes the intersecting faces, if necessary with up to four rings
+/// around them, and fills the hole. An intersection stays unchanged if its repair would leave an
+/// intersection or a new boundary edge, or change the topology. It also stays if the repair would remove
+/// half of a component or exceed the budget. Faces that touch only at vertices with the same position do not
+/// count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
 
 } // namespace facetmill::clean_steps

@@ -20,7 +20,7 @@ void spare_disjoint(const Mesh& mesh, std::vector<Index>& target) {
     merged.corners.resize(mesh.corner_count());
     for (Index c = 0; c < mesh.corner_count(); ++c) merged.corners[c] = target[mesh.vertex(c)];
     const Fans fans = disjoint_fans(merged);
-    // The parts are the same when old and new vertices of the corners at a position match one to one.
+    // If old and new vertices match one to one in all corners at a position, a weld changes nothing there.
     std::vector<Index> new_of_old(mesh.vertex_count(), none),
         old_of_new(mesh.vertex_count() + fans.copies.size(), none);
     std::vector<std::uint8_t> differs(mesh.vertex_count(), 0);
@@ -95,7 +95,7 @@ bool weld_equal(Work& work, bool comes_apart) {
 bool weld_near(Work& work, double tolerance) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
-    std::vector<Box> boxes(p.size()); // boxes of the ends of boundary edges; other vertices are sound
+    std::vector<Box> boxes(p.size()); // boxes of the ends of boundary edges only
     for (const BoundaryEdge& e : boundary_edges(mesh)) {
         boxes[e.from].add(p[e.from]);
         boxes[e.to].add(p[e.to]);
@@ -115,7 +115,8 @@ bool weld_near(Work& work, double tolerance) {
             target[v] = w;
         });
     }
-    // Two vertices that share no face with a third may share a face with each other: then the later stays.
+    // Two vertices that share no face with a third may share a face with each other. In that case, the later
+    // vertex stays.
     std::vector<std::vector<Index>> members(p.size());
     for (Index v = 0; v < p.size(); ++v) {
         if (target[v] == v) continue;

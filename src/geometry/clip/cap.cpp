@@ -19,10 +19,22 @@ namespace {
 struct CutSection {
     struct Edge {
         Index low, high;             ///< vertices
-        Index low_wedge, high_wedge; ///< wedges of the first kept face along the edge
-        int count; ///< faces that run from low to high, minus faces that run from high to low; never 0
+        Index low_wedge, high_wedge; ///< of the first kept face along the edge
+        int count;                   ///< uses from low to high minus uses from high to low
+        bool touching;               ///< of a face outside the plane, on either side; set if count is 0
+    };
+    struct Point {
+        Index vertex, wedge;
+        bool kept;
     };
     std::vector<Edge> edges;
+    /// Vertices in the plane, of faces that are not; each with one wedge, ascending. Those inside the cap
+    /// become its corners. Else faces would end in the middle of its triangles.
+    std::vector<Point> points;
+
+    bool has_contours() const {
+        return std::any_of(edges.begin(), edges.end(), [](const Edge& e) { return e.count != 0; });
+    }
 
     /// The index of the edge between two vertices, or none.
     Index number(Index low, Index high) const;
@@ -37,35 +49,69 @@ Index CutSection::number(Index low, Index high) const {
                                                                    : none;
 }
 
-/// Finds the section of one side. In a closed mesh, the directions of the kept faces cancel at all other
-/// edges.
-CutSection find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
-    std::vector<CutSection::Edge> uses;
-    const auto collect = [&](std::span<const Index> polygon) {
-        for_polygon_edges(polygon, [&](Index a, Index b) {
-            if (cut.sign_of(a) != 0 || cut.sign_of(b) != 0) return;
-            const Index va = cut.vertex_of(a), vb = cut.vertex_of(b);
-            if (va < vb) uses.push_back({va, vb, a, b, 1});
-            if (vb < va) uses.push_back({vb, va, b, a, -1});
-        });
-    };
-    for (std::size_t i = 0; i < pieces.size(); ++i) collect(pieces.of(i));
-    for (const auto* list : {&cut.touching, &cut.flat})
-        for (const Index f : *list)
-            if (cut.stays(f, side)) collect(cut.mesh->face_wedges(f));
-    const int bits = static_cast<int>(std::bit_width(cut.first_extra_vertex()));
-    radix_sort(
-        uses, [&](const CutSection::Edge& e) { return static_cast<std::uint64_t>(e.low) << bits | e.high; },
-        2 * bits);
-    CutSection section;
-    for (std::size_t i = 0; i < uses.size();) {
-        CutSection::Edge sum = uses[i++];
-        while (i < uses.size() && uses[i].low == sum.low && uses[i].high == sum.high)
-            sum.count += uses[i++].count;
-        if (sum.count != 0) section.edges.push_back(sum);
+/// Collects the edges and vertices in the plane.
+class SectionBuilder {
+  public:
+    SectionBuilder(const PlaneCut& cut, int side) : cut_(cut), side_(side) {}
+
+    CutSection run(const Pieces& pieces) {
+        for (std::size_t i = 0; i < pieces.size(); ++i) collect(pieces.of(i), 1, false);
+        for (const Index f : cut_.flat)
+            if (cut_.stays(f, side_)) collect(cut_.mesh->face_wedges(f), 1, false);
+        for (const Index f : cut_.touching) {
+            const bool kept = cut_.stays(f, side_);
+            collect(cut_.mesh->face_wedges(f), kept ? 1 : 0, true);
+            collect_points(f, kept);
+        }
+        for (const Index f : cut_.cut_faces) collect_points(f, true);
+        sum_edges();
+        sum_points();
+        return std::move(section_);
     }
-    return section;
-}
+
+  private:
+    void collect(std::span<const Index> polygon, int count, bool touching) {
+        for_polygon_edges(polygon, [&](Index a, Index b) {
+            if (cut_.sign_of(a) != 0 || cut_.sign_of(b) != 0) return;
+            const Index va = cut_.vertex_of(a), vb = cut_.vertex_of(b);
+            if (va < vb) uses_.push_back({va, vb, a, b, count, touching});
+            if (vb < va) uses_.push_back({vb, va, b, a, -count, touching});
+        });
+    }
+    void collect_points(Index face, bool kept) {
+        for (const Index w : cut_.mesh->face_wedges(face))
+            if (cut_.sign_of(w) == 0) section_.points.push_back({cut_.vertex_of(w), w, kept});
+    }
+    void sum_edges() {
+        const int bits = static_cast<int>(std::bit_width(cut_.first_extra_vertex()));
+        radix_sort(
+            uses_,
+            [&](const CutSection::Edge& e) { return static_cast<std::uint64_t>(e.low) << bits | e.high; },
+            2 * bits);
+        for (std::size_t i = 0; i < uses_.size();) {
+            CutSection::Edge sum = uses_[i++];
+            for (; i < uses_.size() && uses_[i].low == sum.low && uses_[i].high == sum.high; ++i) {
+                sum.count += uses_[i].count;
+                sum.touching |= uses_[i].touching;
+            }
+            if (sum.count != 0 || sum.touching) section_.edges.push_back(sum);
+        }
+    }
+    void sum_points() {
+        auto& points = section_.points;
+        std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+            return a.vertex != b.vertex ? a.vertex < b.vertex : a.kept != b.kept ? a.kept : a.wedge < b.wedge;
+        });
+        points.erase(std::unique(points.begin(), points.end(),
+                                 [](const auto& a, const auto& b) { return a.vertex == b.vertex; }),
+                     points.end());
+    }
+
+    const PlaneCut& cut_;
+    int side_;
+    std::vector<CutSection::Edge> uses_;
+    CutSection section_;
+};
 
 /// Union-find over the vertices of a section. Each vertex has its number of outgoing minus incoming edges.
 struct SectionGraph {
@@ -74,6 +120,7 @@ struct SectionGraph {
 
     explicit SectionGraph(const CutSection& section) {
         for (const auto& e : section.edges) {
+            if (e.count == 0) continue;
             vertices.push_back(e.low);
             vertices.push_back(e.high);
         }
@@ -82,6 +129,7 @@ struct SectionGraph {
         std::iota(root.begin(), root.end(), Index{0});
         balance.resize(vertices.size());
         for (const auto& e : section.edges) {
+            if (e.count == 0) continue;
             const Index a = local(e.low), b = local(e.high);
             balance[a] += e.count;
             balance[b] -= e.count;
@@ -111,6 +159,7 @@ std::vector<OpenEnd> drop_open_contours(CutSection& section, const PlaneCut& cut
     }
     if (open.empty()) return open;
     std::erase_if(section.edges, [&](const CutSection::Edge& e) {
+        if (e.count == 0) return false;
         const Index n = number[graph.find(graph.local(e.low))];
         if (n != none) ++open[n].edges;
         return n != none;
@@ -124,9 +173,9 @@ class Capper {
     Capper(PlaneCut& cut, int side, Pieces& pieces) : cut_(cut), side_(side), pieces_(pieces) {}
 
     Cap run() {
-        section_ = find_section(cut_, side_, pieces_);
+        section_ = SectionBuilder(cut_, side_).run(pieces_);
         cap_.open = drop_open_contours(section_, cut_);
-        if (section_.edges.empty()) return std::move(cap_);
+        if (!section_.has_contours()) return std::move(cap_);
         make_contours();
         filling_ = fill_disjoint(contours_);
         add_points();
@@ -148,6 +197,7 @@ class Capper {
             local_.push_back(e.low);
             local_.push_back(e.high);
         }
+        for (const auto& p : section_.points) local_.push_back(p.vertex);
         sort_unique(local_);
         for (const Index v : local_) {
             const Vec3& p = cut_.point(v);
@@ -280,9 +330,11 @@ class Capper {
             if (!fresh) at->second = std::min(at->second, w);
         };
         for (const auto& e : section_.edges) {
+            if (e.count == 0) continue;
             offer(e.low, e.low_wedge);
             offer(e.high, e.high_wedge);
         }
+        for (const auto& p : section_.points) lowest.try_emplace(p.vertex, p.wedge);
         for (std::size_t i = 0; i < cap_.extra.wedge_vertex.size(); ++i)
             offer(cap_.extra.wedge_vertex[i], static_cast<Index>(cut_.first_extra_wedge() + i));
         for (std::size_t i = 0; i < cap_.vertices.size(); ++i) cap_.wedges[i] = lowest.at(cap_.vertices[i]);

@@ -4,6 +4,8 @@
 #include "geometry/clip/assemble.hpp"
 #include "geometry/cut/score.hpp"
 #include "geometry/edit/redrawn_faces.hpp"
+#include "geometry/edit/split_non_manifold.hpp"
+#include "geometry/inspect/connectivity.hpp"
 
 #include <algorithm>
 #include <array>
@@ -214,7 +216,7 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     inner.keep = Keep::front;
     inner.convex = false;
     inner.triangulate = false;
-    const double snap = settings.snap ? float32_rounding(mesh) : 0;
+    const CoordinateErrors snap = settings.snap ? rounding_of(mesh) : CoordinateErrors{};
     const FlatSide flat = flat_side(mesh, settings);
     std::vector<std::uint8_t> inside(mesh.face_count(), 1);
     for (const Plane& plane : settings.planes) {
@@ -273,7 +275,7 @@ class Clipper {
 
     ClipResult run(Mesh mesh) {
         result_.memory = settings_.memory;
-        if (settings_.snap) snap_ = float32_rounding(mesh);
+        if (settings_.snap) snap_ = rounding_of(mesh);
         if (settings_.cap && settings_.cap_numbers) {
             last_cut_ = largest_number(mesh, cut_id_attribute);
             last_group_ = largest_number(mesh, group_attribute);
@@ -291,6 +293,7 @@ class Clipper {
         result_.cut_faces += cut.cut_faces.size();
         result_.on_plane += cut.on_count;
         result_.snapped += cut.snapped_count;
+        result_.snapped_by = std::max(result_.snapped_by, cut.snapped_by);
         result_.remembered += cut.remembered_count;
         if (!cut.meets()) return keep_or_drop(mesh, cut);
         result_.changed = true;
@@ -345,14 +348,24 @@ class Clipper {
         }
         ClippedSide made = assemble(cut, side, pieces, cap, paint);
         merge_changes(result_.changes, made.changes);
+        if (settings_.cap && cut.on_count > 0) separate_at_touches(made.mesh, *cut.mesh);
         return std::move(made.mesh);
+    }
+
+    /// A cap may touch faces that end in the plane. The solids on both sides of such an edge or vertex become
+    /// separate there, as in combine.
+    void separate_at_touches(Mesh& clipped, const Mesh& before) {
+        if (connectivity_of(clipped).is_manifold() || !connectivity_of(before).is_manifold()) return;
+        const auto old = static_cast<std::ptrdiff_t>(clipped.vertex_count());
+        clipped = split_non_manifold(std::move(clipped));
+        made_.insert(made_.end(), clipped.positions.begin() + old, clipped.positions.end());
     }
 
     const ClipSettings& settings_;
     ClipResult result_;
-    double snap_ = 0;
-    Index last_cut_ = 0, last_group_ = 0; ///< the largest existing numbers
-    std::vector<Vec3> made_;              ///< points made by the caps of a plane
+    CoordinateErrors snap_;
+    Index last_cut_ = 0, last_group_ = 0; ///< existing numbers
+    std::vector<Vec3> made_;              ///< by the caps of a plane
 };
 
 } // namespace

@@ -58,19 +58,21 @@ class Cropper {
     /// Finds vertices near the outline. They count as on the outline, and as on the planes of its segments
     /// nearby.
     void snap() {
-        double scale = 0;
-        for (const auto& row : settings_.to_world.m)
-            scale += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
-        view_.snap = float32_rounding(mesh_) * std::sqrt(scale / 3);
+        const CoordinateErrors local = rounding_of(mesh_);
+        view_.snap = seen_error(local.single);
+        view_.rounding = seen_error(local.twice) * 16;
         for (const auto& e : footprint_.tree().edges())
-            if (length(e.b - e.a) <= 4 * view_.snap) {
-                view_.snap = 0; // below float precision
+            if (std::fabs(e.b.x - e.a.x) <= 4 * view_.snap.x &&
+                std::fabs(e.b.y - e.a.y) <= 4 * view_.snap.y) { // below float precision
+                view_.snap = view_.rounding = {};
                 return;
             }
-        const double rounding = std::ldexp(view_.snap, -27); // 4 units in the last place
+        if (view_.snap == Vec2{}) return;
+        const Vec2 rounding = view_.rounding * (1.0 / 16);
         struct Found {
             std::size_t off = 0;
-            std::vector<std::pair<Index, Vec3>> points; ///< points, with the segments that contain them
+            double by = 0;
+            std::vector<std::pair<Index, Vec3>> points; ///< with the segments that contain them
         };
         const auto look_at = [&](std::size_t v, Found& some) {
             if (!is_float32(mesh_.positions[v])) return;
@@ -78,7 +80,10 @@ class Cropper {
             bool off = false;
             footprint_.near(p, view_.snap, [&](Index segment) {
                 const auto& e = footprint_.tree().edges()[segment];
-                off |= std::fabs(cross(e.b - e.a, p - e.a)) > rounding * length(e.b - e.a);
+                const Vec2 d = e.b - e.a;
+                const double distance = std::fabs(cross(d, p - e.a));
+                off |= distance > std::fabs(d.x) * rounding.y + std::fabs(d.y) * rounding.x;
+                some.by = std::max(some.by, distance / length(d));
                 some.points.emplace_back(segment, mesh_.positions[v]);
                 if (places_[v] <= PointLocation::inside) places_[v] = PointLocation::on_edge;
                 return true;
@@ -94,14 +99,24 @@ class Cropper {
             },
             [](Found a, const Found& b) {
                 a.off += b.off;
+                a.by = std::max(a.by, b.by);
                 a.points.insert(a.points.end(), b.points.begin(), b.points.end());
                 return a;
             },
             1024);
         result_.snapped += found.off;
+        result_.snapped_by = found.by;
         remember(found.points);
     }
-    /// Stores each point with the segment whose plane contains it.
+    /// The largest error of a point as seen, from the errors along the mesh's own axes.
+    Vec2 seen_error(const Vec3& local) const {
+        Vec3 world;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) world[i] += std::fabs(settings_.to_world.m[i][j]) * local[j];
+        const Vec2 seen = seen_along(settings_.axis, world);
+        return std::isfinite(seen.x) && std::isfinite(seen.y) ? seen : Vec2{};
+    }
+    /// Stores points, each with the segment whose plane contains it.
     void remember(const std::vector<std::pair<Index, Vec3>>& points) {
         std::map<Index, std::vector<Vec3>> of_segment;
         for (const auto& [segment, point] : points) of_segment[segment].push_back(point);

@@ -31,8 +31,9 @@ struct CropSettings {
     /// As for clip; cut_id numbers the outline's segments, group its rings.
     std::optional<Primitive> cap_primitive;
     bool cap_numbers = false;
-    /// Treats float32 positions within one float32 ulp of the mesh's bounds as on the outline. It is disabled
-    /// if a segment is hardly longer than that, or if walls could not be closed.
+    /// Treats 32-bit floats as on the outline if they may be off it by their rounding alone (CoordinateErrors
+    /// in geometry/cut/cut.hpp). It is disabled if a segment is hardly longer than that, or if walls could
+    /// not be closed.
     bool snap = false;
     CutMemory memory; ///< points known to be on planes
 };
@@ -46,6 +47,7 @@ struct CropResult {
     /// Vertices off a segment's plane by more than rounding that snap treats as on it. Vertices exactly on
     /// another segment are included.
     std::size_t snapped = 0;
+    double snapped_by = 0; ///< the largest distance of a snapped vertex from its segment's line, in world
     bool changed = false;
     std::vector<OpenContour> open; ///< contours of open meshes without a wall; plane is the segment
     CutMemory memory;

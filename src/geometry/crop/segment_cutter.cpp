@@ -21,7 +21,7 @@ double rounding_of(std::initializer_list<double> sizes) {
 /// Cached shape of a piece, reused for successive segments.
 struct PieceShape {
     double square = -1; ///< squared distance of the farthest corner; negative: unknown
-    double way = 1;     ///< 1 for an anticlockwise piece, else -1
+    double way = 1;     ///< 1 for an anticlockwise piece, otherwise -1
     Index parting = 0; ///< the edge that last separated the piece from a segment (modulo the number of edges)
     double low = 0,
            high = -1; ///< extent behind and in front of this edge, times the edge's length; high < 0: unknown
@@ -373,7 +373,7 @@ class SegmentCutter {
         const auto sign = [&](std::size_t i) { return sign_at(s, vertex_of(wedges[i % n])); };
         std::size_t begin = 0; // the first corner in front
         while (!(sign(begin) > 0 && sign(begin + n - 1) < 0)) ++begin;
-        std::array<std::vector<Index>, 2> parts; // in front and behind
+        std::array<std::vector<Index>, 2> parts; // triangles in front and behind
         std::array<Bounds, 2> boxes;
         std::size_t i = begin;
         for (std::size_t part = 0; part < 2; ++part) {

@@ -80,8 +80,8 @@ bool CropView::is_on_segment(const std::vector<Vec2>& face) const {
 bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
                              const std::vector<Vec2>& face) const {
     if (is_on_segment(face)) return true;
-    if (!(snap > 0)) return false;
-    const auto on = [&](const Vec2& p, double distance) {
+    if (rounding == Vec2{}) return false;
+    const auto on = [&](const Vec2& p, const Vec2& distance) {
         bool found = false;
         footprint_.near(p, distance, [&](Index) {
             found = true;
@@ -89,15 +89,14 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
         });
         return found;
     };
-    if (!on(mean, snap)) return false;
-    // The tolerance of cut points and double positions: 64 units in their last place.
-    const double rounding = std::ldexp(snap, -23);
+    const Vec2 most{std::max(snap.x, rounding.x), std::max(snap.y, rounding.y)};
+    if (!on(mean, most)) return false;
     const auto corners = mesh.face_wedges(f);
-    double widest = rounding;
+    Vec2 widest = rounding;
     for (std::size_t i = 0; i < face.size(); ++i) {
         const bool rounded = is_float32(mesh.positions[mesh.vertex_of_wedge(corners[i])]);
-        if (!on(face[i], rounded ? snap : rounding)) return false;
-        if (rounded) widest = snap;
+        if (!on(face[i], rounded ? most : rounding)) return false;
+        if (rounded) widest = most;
     }
     return on(mean,
               widest); // all corners may be on the outline although the mean is not
@@ -114,9 +113,9 @@ PointLocation CropView::settle(PointLocation place, const Mesh& mesh, Index f) c
     double least = HUGE_VAL;
     bool inside = true;
     const double size = std::max({std::fabs(at.x), std::fabs(at.y), 1e-300});
-    for (double margin = std::max(snap, 16 * 2.220446049250313e-16 * size);
+    for (double margin = std::max({snap.x, snap.y, 16 * 2.220446049250313e-16 * size});
          least == HUGE_VAL && std::isfinite(margin); margin *= 16)
-        footprint_.near(at, margin, [&](Index i) {
+        footprint_.near(at, {margin, margin}, [&](Index i) {
             const Vec2 d = footprint_.tree().edges()[i].b - footprint_.tree().edges()[i].a;
             const double along = std::fabs(dot(d, out)) / (length(d) * length(out));
             if (along < least || least == HUGE_VAL) {

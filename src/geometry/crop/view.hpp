@@ -32,8 +32,9 @@ class CropView {
     CropView(const Footprint& footprint, const CropSettings& settings)
         : footprint_(footprint), settings_(settings), inside_(footprint, settings.inside_by) {}
 
-    /// With snap, points within this distance of the outline count as on it.
-    double snap = 0;
+    /// With snap: how far 32-bit floats that count as on the outline may be off it along both coordinates,
+    /// and how far other points may be (64 units of a double's last place).
+    Vec2 snap, rounding;
 
     const Footprint& footprint() const { return footprint_; }
     const CropSettings& settings() const { return settings_; }

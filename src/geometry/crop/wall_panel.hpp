@@ -59,7 +59,7 @@ class WallPanel {
         Index edge;  ///< index of the given boundary edge
         Index from;  ///< its end with t = 0, chosen by position
         double t;    ///< position along the edge: above 0 and below 1
-        Index point; ///< a vertex if below points().size(), else an added point
+        Index point; ///< a vertex if below points().size(), otherwise an added point
     };
     const Filling& filling() const { return filling_; }
     const std::vector<Index>& points() const { return points_; } ///< vertices of the filling

@@ -278,7 +278,7 @@ class Closer {
     void find_open(DisjointSets& contours, std::set<Index>& open) const {
         std::map<Index, int> balance; // [vertices] balance
         std::map<std::pair<Index, Index>, std::pair<int, std::set<Index>>>
-            post; // by wall and post: the balance and its vertices
+            post; // the balance and its vertices, by wall and post
         for (const WallEdge& e : edges_) {
             if (open.contains(contours.find(e.low))) continue;
             balance[e.low] += e.count;

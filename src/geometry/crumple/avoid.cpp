@@ -29,16 +29,16 @@ CrumplePlaces::CrumplePlaces(std::span<const CrumpleSheet> sheets) {
 
 namespace {
 
-constexpr int patient_rounds = 8;   ///< after these, the surrounding positions are lowered too
-constexpr int widening_rounds = 16; ///< after these, twice as far around in every round
+constexpr int patient_rounds = 8;   ///< after this many rounds, the surrounding positions are lowered too
+constexpr int widening_rounds = 16; ///< after this many rounds, the surroundings double in every round
 /// Box pairs per face that are examined before shares fall in larger steps: enough for moves as long as the
 /// faces' edges.
 constexpr std::size_t pairs_a_face = 32;
 /// In any case, this many times the box pairs before the move are examined, because faces may be close
 /// together.
 constexpr std::size_t times_before = 3;
-constexpr std::uint8_t large_step = 3; ///< to an eighth
-constexpr int large_rounds = 3;        ///< after these, to nothing
+constexpr std::uint8_t large_step = 3; ///< large steps lower to an eighth
+constexpr int large_rounds = 3;        ///< after this many large steps, moves fall to 0
 
 /// The rings of faces around intersecting faces that are lowered with them.
 std::size_t rings_in(int round) {
@@ -72,20 +72,20 @@ void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels
     for (std::size_t s = 0; s < tests.size(); ++s) look_at(s);
 }
 
-/// How the places of faces in trouble are lowered in a round.
+/// How the positions of intersecting faces are lowered in a round.
 struct Lowering {
-    std::uint8_t step = 1; ///< levels
-    std::size_t rings = 0; ///< of faces around that are lowered with them
+    std::uint8_t step = 1; ///< number of levels
+    std::size_t rings = 0; ///< rings of surrounding faces that are lowered too
 };
 
-/// Chooses the lowering by the rounds and by the work, both counted from the first.
+/// Chooses the lowering by the total number of rounds and the total work.
 class Patience {
   public:
     explicit Patience(const std::vector<TestSheet>& tests) {
         for (const TestSheet& test : tests)
             most_ += std::max(pairs_a_face * test.face_count(), times_before * test.pairs_before());
     }
-    /// For the next round, after examining so many more box pairs.
+    /// The lowering for the next round, after examining this many more box pairs.
     Lowering next(std::size_t box_pairs) {
         seen_ += box_pairs;
         const int round = round_++;
@@ -107,7 +107,7 @@ void note(const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_
         if (marked[p] && levels[p] < last_level) coarse[p] = 1;
 }
 
-/// Lowers places until no new faces meet.
+/// Lowers positions until no new faces intersect.
 class Separation {
   public:
     /// `coarse`: [positions] 1 if lowered in large steps before; `stretch`: the stretch so far.
@@ -116,7 +116,7 @@ class Separation {
         : tests_(tests), levels_(levels), found_(found), result_(result), patience_(tests),
           coarse_(std::move(coarse)), stretch_(stretch) {}
 
-    /// Adds the faces that meet in the first round that looks at all to `found`.
+    /// Adds the faces that intersect in the first complete round to `found`.
     void run() {
         ProgressRounds rounds;
         for (bool is_first = true;; ++result_.rounds, rounds.next()) {
@@ -145,7 +145,7 @@ class Separation {
     }
 
   private:
-    /// [positions] 1 if lowered; empty when no faces meet.
+    /// [positions] 1 if lowered; empty if no faces intersect.
     std::vector<std::uint8_t> lower_meeting(const std::vector<MeetingFaces>& trouble, const Lowering& how,
                                             bool is_first) {
         std::vector<std::uint8_t> marked(levels_.size());
@@ -156,14 +156,15 @@ class Separation {
         }
         if (!more) return {};
         if (how.step > 1) note(marked, levels_, coarse_);
-        if (!lower(marked, levels_, how.step)) // nothing moves, so all pairs existed before
+        if (!lower(marked, levels_, how.step)) // if nothing moves, all pairs existed before
             throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
         return marked;
     }
 
     /// If too many pairs would have to be examined, halves the allowed stretch repeatedly until some
-    /// positions are lowered. If no patience is left, or all faces keep their shape, stops all moves of the
-    /// faces in question. [positions] as above. again: set to the faces that may still meet, lowered or not.
+    /// positions are lowered. If the round limit is reached, or all faces keep their shape, stops all moves
+    /// of these faces. Returns [positions] 1 if lowered. again: set to the faces that may still meet,
+    /// lowered or not.
     std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how,
                                         FacesOfSheets& again) {
         for (std::size_t s = 0; s < tests_.size(); ++s)
@@ -195,7 +196,7 @@ class Separation {
     double stretch_;
 };
 
-/// Moves as far as faces do not come to meet.
+/// Moves vertices as far as possible without new intersections.
 void avoid(std::span<const CrumpleSheet> sheets, std::vector<TestSheet>& tests,
            std::vector<std::uint8_t>& levels, std::size_t max_pairs, AvoidResult& result) {
     FacesOfSheets found(tests.size());
@@ -235,7 +236,8 @@ void hold_joint_vertices(std::span<CrumpleSheet> sheets) {
 
 double avoid_intersections_memory(double triangles, double largest) {
     constexpr double kept = 100, searched = 200;
-    const double stay = std::max(largest, static_cast<double>(max_open_triangles)); // the first in any case
+    const double stay =
+        std::max(largest, static_cast<double>(max_open_triangles)); // the first sheet always stays
     return kept * triangles + searched * std::min(triangles, stay + largest);
 }
 

@@ -58,7 +58,7 @@ std::vector<Index> by_place(const std::vector<std::uint64_t>& keys) {
     return order;
 }
 
-/// One byte per vertex: 1 if its position ends an edge between positions that has exactly one face.
+/// [vertices] 1 if an edge with exactly one face ends at the vertex's position.
 std::vector<std::uint8_t> boundary_places(const Mesh& mesh, const std::vector<std::uint64_t>& keys) {
     const std::vector<Index> order = by_place(keys);
     std::vector<Index> first(keys.size());
@@ -76,8 +76,8 @@ std::vector<std::uint8_t> boundary_places(const Mesh& mesh, const std::vector<st
     return held;
 }
 
-/// Sums the area vectors of the faces of all vertices at one position: a normal that copies of a vertex
-/// share.
+/// Sums the area vectors of the faces of all vertices at a position, so that copies of a vertex share the
+/// normal.
 std::vector<Vec3> place_normals(const Mesh& mesh, const std::vector<Vec3>& world,
                                 const std::vector<std::uint64_t>& keys, bool mirrored) {
     const std::size_t n = mesh.vertex_count();
@@ -101,7 +101,7 @@ std::vector<Vec3> place_normals(const Mesh& mesh, const std::vector<Vec3>& world
     return normals;
 }
 
-/// Refuses moves that leave the numbers of float32, which files hold.
+/// Refuses moves beyond the range of float32, which files store.
 void check_reach(const Mesh& mesh, const std::vector<Vec3>& moves, double amplitude) {
     constexpr double most = std::numeric_limits<float>::max();
     const auto fits = [](const Vec3& p) {
@@ -123,7 +123,7 @@ void check_reach(const Mesh& mesh, const std::vector<Vec3>& moves, double amplit
                     "use a smaller amplitude");
 }
 
-/// The amounts of vertices along so many axes, in world units.
+/// The amounts of vertices along one or three axes, in world units.
 class Amounts {
   public:
     Amounts(const Settings& s, const std::vector<Vec3>& world, const std::vector<std::uint64_t>& keys)

@@ -61,8 +61,8 @@ struct SampledSheet {
     }
 };
 
-/// Whether more than an eighth of the faces intersect when they are stretched by up to `stretch` times their
-/// longest edge. Lowers levels.
+/// Whether more than an eighth of the faces intersect if stretched by up to `stretch` times their longest
+/// edge. Lowers levels.
 bool mostly_in_trouble(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, double stretch) {
     FacesOfSheets found(tests.size());
     slacken(tests, levels, stretch, found);

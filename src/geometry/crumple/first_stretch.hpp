@@ -5,10 +5,10 @@
 
 namespace facetmill {
 
-/// Relative to the longest edge of a face. If most faces are stretched much, a sample (all faces in some of
-/// the cubes that divide space) is tested at max_stretch, half of it and so on. It ends when at most an
-/// eighth of the sample intersects. Otherwise a round would lower most positions, after examining very many
-/// pairs. A pure function of the sheets.
+/// The initial stretch limit, relative to the longest edge of a face. If most faces are stretched much, a
+/// sample (all faces in some of the cubes that divide space) is tested at max_stretch, half of it and so on,
+/// until at most an eighth of the sample intersects. Otherwise a round would lower most positions, after
+/// examining very many pairs. A pure function of the sheets.
 [[nodiscard]] double first_stretch(std::span<const CrumpleSheet> sheets, const std::vector<TestSheet>& tests,
                                    const std::vector<std::uint8_t>& levels, std::size_t max_pairs);
 

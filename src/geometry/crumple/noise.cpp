@@ -17,8 +17,8 @@ std::uint32_t canonical_bits(double x) {
     return f == 0 ? 0 : std::bit_cast<std::uint32_t>(f);
 }
 
-/// Rounds to 40 significant bits, fewer than the 53 of a double, so that positions that differ by the
-/// rounding of a transform mostly coincide. 0 for -0.
+/// Rounds to 40 significant bits (a double has 53), so that positions that differ by the rounding of a
+/// transform mostly coincide. -0 becomes 0.
 double as_far_place(double x) {
     constexpr int left_out = 53 - 40;
     const std::uint64_t half = std::uint64_t{1} << (left_out - 1);
@@ -33,7 +33,7 @@ struct NoiseCell {
     double weight;
 };
 NoiseCell cell_of(double x) {
-    constexpr double most = 4503599627370496.0; // 2^52: beyond, no two points share a cell anyway
+    constexpr double most = 4503599627370496.0; // 2^52; beyond this, no two points share a cell anyway
     const double low = std::floor(std::clamp(x, -most, most)), t = std::clamp(x - low, 0.0, 1.0);
     return {static_cast<std::int64_t>(low), t * t * t * (t * (t * 6 - 15) + 10)};
 }
@@ -64,8 +64,9 @@ double gaussian(std::uint64_t key, double truncate) {
         g = inverse_normal(uniform(hashed(key, attempt)));
         if (g >= -truncate && g <= truncate) return g;
     }
-    return std::clamp(g, -truncate,
-                      truncate); // not reached: at truncate 0.1 a draw holds with probability 0.08
+    return std::clamp(
+        g, -truncate,
+        truncate); // practically unreachable: even at truncate 0.1, a draw succeeds with probability 0.08
 }
 
 void gaussians(std::span<const std::uint64_t> keys, double truncate, std::span<double> all) {

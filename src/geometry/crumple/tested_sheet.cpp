@@ -49,7 +49,7 @@ void TestSheet::place(const std::vector<std::uint8_t>& levels, const std::vector
 
 std::vector<std::pair<Index, Index>> TestSheet::new_pairs(const std::vector<std::uint8_t>& levels) {
     Open& in = open(levels);
-    // With so many listed, the list contains a new pair if any exists.
+    // If this many pairs are listed, the list contains a new pair if any exists.
     auto pairs = find(in, touched_, exempt_.size() + max_pairs_).pairs;
     std::erase_if(pairs,
                   [&](const auto& p) { return std::binary_search(exempt_.begin(), exempt_.end(), p); });
@@ -209,8 +209,8 @@ SelfIntersections TestSheet::find(Open& in, const std::vector<std::uint8_t>& amo
 std::vector<TestSheet> tests_of(std::span<const CrumpleSheet> sheets, const CrumplePlaces& places,
                                 std::size_t max_pairs, std::size_t max_open) {
     std::vector<TestSheet> tests;
-    tests.reserve(sheets.size());                                         // they are pointed to
-    std::map<std::pair<std::size_t, std::size_t>, const TestSheet*> last; // of each size
+    tests.reserve(sheets.size()); // reserved, because pointers refer to the elements
+    std::map<std::pair<std::size_t, std::size_t>, const TestSheet*> last; // sheets by size
     std::size_t open = 0;
     ProgressSteps of_sheets(std::vector<double>(sheets.size(), 1));
     for (std::size_t s = 0; s < sheets.size(); ++s) {

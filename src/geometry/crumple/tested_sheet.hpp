@@ -1,6 +1,5 @@
 #pragma once
-// Sheets in the form in which they are tested while their faces are kept apart, and the shares of the moves
-// of their positions.
+// Sheets in a form for repeated intersection tests, and the shares of the moves of their positions.
 
 #include "base/error.hpp"
 #include "base/math/numbers.hpp"
@@ -20,17 +19,17 @@ namespace facetmill {
 /// Places of all sheets, numbered by their keys.
 struct CrumplePlaces {
     Index count = 0;
-    std::vector<std::vector<Index>> of_vertex; ///< [sheets][vertices]
+    std::vector<std::vector<Index>> of_vertex; ///< [sheets][vertices] positions
 
     explicit CrumplePlaces(std::span<const CrumpleSheet> sheets);
 };
 
-inline constexpr std::uint8_t last_level = 9; ///< of shares: no move at all
-/// Relative to the longest edge of a face. If moves draw two of its corners apart by more, the face almost
-/// certainly meets others, so many that finding them all would take most of the time.
+inline constexpr std::uint8_t last_level = 9; ///< the level of share 0, no move
+/// Relative to the longest edge of a face. If moves stretch a face by more than this, it almost certainly
+/// intersects others. Finding all of them would take most of the time.
 inline constexpr double max_stretch = 8;
-inline constexpr double least_stretch = 1.0 / 64; ///< below, faces keep their shape
-/// Box pairs per face that are examined in one round. With more, faces are stretched too far to be examined
+inline constexpr double least_stretch = 1.0 / 64; ///< below this, faces keep their shape
+/// Box pairs per face that are examined in a round. With more, faces are stretched too far to be examined
 /// individually.
 inline constexpr std::size_t pairs_a_round = 24;
 /// In any case, this many times the box pairs before the move are examined, because faces may be close
@@ -45,15 +44,14 @@ inline constexpr std::size_t times_before_a_round = 2;
 /// triangle, is built on request and dropped again unless it is kept open.
 class TestSheet {
   public:
-    /// `alike`: another sheet or none; where the two are the same before they move, nothing is searched
-    /// twice.
+    /// `alike`: another sheet, or null. If both are equal before they move, its search is reused.
     TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places, std::size_t max_pairs,
               bool stays_open = true, const TestSheet* alike = nullptr);
 
     std::size_t exempt() const { return exempt_.size(); }
     std::size_t pairs_before() const { return pairs_before_; }
     std::size_t face_count() const { return from().face_count(); }
-    /// The mesh before it moves, by positions.
+    /// The mesh before the moves, with coincident vertices merged.
     Mesh mesh_before() const { return mesh_at({}); }
 
     /// Moves the vertices whose level changed, or all. Marks their faces, and the faces in `again`, as
@@ -62,14 +60,14 @@ class TestSheet {
                std::vector<std::uint8_t> again = {});
 
     /// The new pairs among touched faces, as many as are listed; a face that lost its area is paired with
-    /// itself. levels: the levels of the last place(); so below.
+    /// itself. levels: the levels of the last place(), also for the following functions.
     std::vector<std::pair<Index, Index>> new_pairs(const std::vector<std::uint8_t>& levels);
 
-    /// [faces] 1 if the moves, by the shares at the levels, draw two corners apart by more than `stretch`
-    /// times the longest edge.
+    /// [faces] 1 if the moves at these levels separate two corners by more than `stretch` times the longest
+    /// edge.
     std::vector<std::uint8_t> overstretched(const std::vector<std::uint8_t>& levels, double stretch) const;
 
-    /// Looks at these faces only; the others count as not touched.
+    /// Limits the search to these faces; all others count as untouched.
     void touch_only(std::vector<std::uint8_t> faces) { touched_ = std::move(faces); }
 
     /// The faces of all new pairs among touched faces, unless too many pairs would have to be examined.
@@ -81,13 +79,13 @@ class TestSheet {
               std::vector<std::uint8_t>& marked) const;
 
     const std::vector<std::uint8_t>& touched() const { return touched_; }
-    /// [vertices] where they are at the levels.
+    /// [vertices] The positions at these levels.
     std::vector<Vec3> positions(const std::vector<std::uint8_t>& levels) const;
 
   private:
     struct Open {
         explicit Open(Mesh at, const Box& frame) : mesh(std::move(at)), search(mesh, frame) {}
-        Mesh mesh; ///< corners go to the first of equal vertices
+        Mesh mesh; ///< corners use the first of equal vertices
         SelfIntersectionSearch search;
     };
 
@@ -98,13 +96,13 @@ class TestSheet {
         const auto& [x, y, z] = before_[vertex];
         return {x, y, z};
     }
-    /// The position at the levels of a vertex, which must be the first of its group; empty levels: before it
-    /// moves.
+    /// The position of a vertex at these levels. The vertex must be the first of its group. Empty levels:
+    /// before the moves.
     Vec3 at(Index vertex, const std::vector<std::uint8_t>& levels) const;
     Mesh mesh_at(const std::vector<std::uint8_t>& levels) const;
     Open& open(const std::vector<std::uint8_t>& levels);
     void close();
-    /// first_[v]: the first vertex at the place of v that starts at the same point.
+    /// Sets first_[v]: the first vertex with v's position that starts at the same point.
     void weld();
     bool is_same_before(const TestSheet& other) const;
     void remember_exempt();
@@ -114,12 +112,12 @@ class TestSheet {
     const std::vector<Index>& places_;
     std::size_t max_pairs_;
     bool stays_open_;
-    std::vector<std::array<float, 3>> before_; ///< [vertices] where they start
-    std::vector<Index> first_;                 ///< [vertices]
+    std::vector<std::array<float, 3>> before_; ///< [vertices] initial positions
+    std::vector<Index> first_;                 ///< [vertices] first equal vertex
     std::optional<Open> open_;
-    Box frame_;                                   ///< of all triangles that were searched
+    Box frame_;                                   ///< box of all triangles that were searched
     std::vector<std::pair<Index, Index>> exempt_; ///< ascending
-    std::size_t pairs_before_ = 0;                ///< of triangles with boxes that meet
+    std::size_t pairs_before_ = 0;                ///< pairs of triangles with boxes that meet
     std::vector<std::uint8_t> flat_, touched_;    ///< [faces]
 };
 
@@ -129,7 +127,7 @@ class TestSheet {
                                               const CrumplePlaces& places, std::size_t max_pairs,
                                               std::size_t max_open = max_open_triangles);
 
-/// Lowers the marked places by a step of levels; whether any was still above the last.
+/// Lowers the marked positions by `step` levels. Returns whether any position was above the last level.
 inline bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels,
                   std::uint8_t step = 1) {
     bool any = false;

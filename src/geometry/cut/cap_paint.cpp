@@ -18,7 +18,7 @@ Index primitive_number(Mesh& mesh, const std::optional<Primitive>& wanted) {
     return static_cast<Index>(mesh.primitives.size() - 1);
 }
 
-/// The face attribute of numbers; created if missing.
+/// The face attribute with this name; created if missing.
 Attribute& numbers(Mesh& mesh, std::string_view name) {
     if (Attribute* a = mesh.find(name, Domain::face)) return *a;
     mesh.attributes.push_back({std::string(name), Domain::face, Role::index, 1, false,
@@ -41,7 +41,7 @@ void paint_faces(Mesh& mesh, FaceRange faces, const CapPaint& paint) {
     set(group_attribute, paint.group);
 }
 
-/// Orthonormal directions in the plane: across, up, and the way it looks.
+/// Orthonormal directions of a plane: across, up, and the normal.
 struct Frame {
     Vec3 across, up, out;
 
@@ -111,7 +111,7 @@ void paint_cap(Mesh& mesh, FaceRange faces, std::span<const Index> wedges, const
     const double largest =
         std::max({std::fabs(plane.normal.x), std::fabs(plane.normal.y), std::fabs(plane.normal.z)});
     const Frame frame(plane.normal / largest);
-    Box box; // of the coordinates in the plane
+    Box box; // box of the coordinates in the plane
     const auto flat = [&](Index w) {
         const Vec3& p = mesh.positions[mesh.vertex_of_wedge(w)];
         return Vec3{dot(p, frame.across), dot(p, frame.up), 0};

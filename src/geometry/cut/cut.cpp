@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <limits>
 #include <set>
 
@@ -16,11 +17,12 @@ namespace {
 
 struct Tally {
     std::size_t above = 0, below = 0, on = 0, snapped = 0, remembered = 0;
+    double by = 0; ///< the largest |side| of a snapped vertex
 };
 
 Tally operator+(const Tally& a, const Tally& b) {
-    return {a.above + b.above, a.below + b.below, a.on + b.on, a.snapped + b.snapped,
-            a.remembered + b.remembered};
+    return {a.above + b.above,     a.below + b.below,           a.on + b.on,
+            a.snapped + b.snapped, a.remembered + b.remembered, std::max(a.by, b.by)};
 }
 
 bool is_float32(double x) {
@@ -37,9 +39,9 @@ double normal_length(const Plane& plane) {
 void classify_vertices(PlaneCut& cut, const OnPlane& on) {
     const auto& positions = cut.mesh->positions;
     const CutMemory::Entry* known = on.memory ? on.memory->find(cut.plane) : nullptr;
-    const double reach = on.snap > 0 ? on.snap * normal_length(cut.plane) : 0;
-    const double snap = std::isfinite(reach) ? reach : 0;
-    const double rounding = std::ldexp(snap, -27); // 4 units of a double's last place
+    const auto finite = [](double reach) { return std::isfinite(reach) ? reach : 0; };
+    const double snap = finite(on.snap.of_single(cut.plane.normal)),
+                 rounding = finite(on.snap.of_double(cut.plane.normal));
     const auto classify = [&](const Vec3& p, Tally& t) -> std::int8_t {
         const double s = side(cut.plane, p);
         if (s == 0) {
@@ -49,6 +51,7 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
         if (std::fabs(s) <= snap && is_float32(p)) {
             ++t.on;
             ++t.snapped;
+            t.by = std::max(t.by, std::fabs(s));
             return 0;
         }
         if (known && known->has(p, known->plane == cut.plane ? s : side(known->plane, p))) {
@@ -59,6 +62,7 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
         if (std::fabs(s) <= rounding) {
             ++t.on;
             ++t.snapped;
+            t.by = std::max(t.by, std::fabs(s));
             return 0;
         }
         ++(s > 0 ? t.above : t.below);
@@ -77,6 +81,7 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
     cut.below_count = tally.below;
     cut.on_count = tally.on;
     cut.snapped_count = tally.snapped;
+    if (tally.by > 0) cut.snapped_by = tally.by / normal_length(cut.plane);
     cut.remembered_count = tally.remembered;
 }
 
@@ -95,7 +100,7 @@ void classify_faces(PlaneCut& cut) {
     });
 }
 
-/// The faces whose class the predicate likes, ascending.
+/// The faces whose class satisfies the predicate, ascending.
 template <class Predicate>
 std::vector<Index> faces_where(const PlaneCut& cut, Predicate&& likes) {
     constexpr std::size_t chunk = 65536;
@@ -113,11 +118,11 @@ std::vector<Index> faces_where(const PlaneCut& cut, Predicate&& likes) {
     return all;
 }
 
-/// A corner whose edge the plane crosses: its wedges, that at the lower vertex first, and where the answer
-/// goes.
+/// A corner whose edge the plane crosses: the wedges of the edge (the wedge at the lower vertex first), and
+/// the slot for the result.
 struct Crossing {
     Index low, high; ///< wedges
-    Index slot;      ///< into PlaneCut::crossings
+    Index slot;      ///< index in PlaneCut::crossings
 };
 
 std::vector<Crossing> find_crossings(PlaneCut& cut) {
@@ -143,7 +148,7 @@ double parameter_at(const PlaneCut& cut, Index low, Index high) {
 
 std::uint64_t edge_key(Index low, Index high) { return std::uint64_t{low} << 32 | high; }
 
-/// Appends the crossings of faces that stay whole at the edges where others are cut.
+/// Appends the crossings of faces that stay whole, at edges where other faces are cut.
 void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Crossing>& found, Index& slots) {
     const Mesh& mesh = *cut.mesh;
     std::vector<std::uint64_t> edges;
@@ -170,7 +175,7 @@ void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Cro
     }
 }
 
-/// One wedge per pair of wedges.
+/// Makes a new wedge per pair of wedges.
 void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings, Index slots) {
     const std::size_t wedges = cut.mesh->wedge_count();
     const int bits = static_cast<int>(std::bit_width(wedges));
@@ -190,7 +195,7 @@ void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings, Index slots) {
     });
 }
 
-/// One vertex per edge: the new wedges again, but by vertices.
+/// Makes a new vertex per edge, by grouping the new wedges by vertices.
 void make_vertices(PlaneCut& cut) {
     const Mesh& mesh = *cut.mesh;
     if (!mesh.has_seams()) {
@@ -233,7 +238,7 @@ CrossingPoints::CrossingPoints(const Plane& plane) : axis_(axis_of(plane)) {
 
 double CrossingPoints::parameter(double side_of_a, double side_of_b) {
     const double t = side_of_a / (side_of_a - side_of_b); // the signs differ and neither is 0
-    return t >= 0 && t <= 1 ? t : 0.5;                    // overflow only
+    return t >= 0 && t <= 1 ? t : 0.5;                    // outside only by overflow
 }
 
 Vec3 CrossingPoints::operator()(const Vec3& a, const Vec3& b, double t) const {
@@ -246,7 +251,7 @@ Vec3 CrossingPoints::operator()(const Vec3& a, const Vec3& b, double t) const {
 
 bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
 
-/// At every edge the directions of the faces cancel.
+/// Whether the directions of the faces cancel at every edge.
 bool is_closed(const Mesh& mesh) {
     const EdgeTable table = build_edges(mesh);
     for (Index e = 0; e < table.size(); ++e) {
@@ -258,39 +263,83 @@ bool is_closed(const Mesh& mesh) {
 }
 
 namespace {
-/// Numbers that are 32-bit floats: whether all are multiples of a step, and enough of them differ that it
-/// does not happen to rounded ones, of which half are odd multiples of half of it: by 2^-24.
-struct Multiples {
-    bool all = true;
-    std::set<double> some{};
-    static constexpr std::size_t enough = 24;
 
-    void add(double x, double step) {
-        all = all && std::fmod(x, step) == 0;
-        if (all && some.size() < enough) some.insert(x);
+/// The 32-bit floats along one axis, except 0.
+class AxisFloats {
+  public:
+    void add(double x) {
+        if (x == 0) return;
+        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(std::fabs(x)));
+        const std::uint32_t exponent = bits >> 23, fraction = bits & 0x7FFFFF;
+        const int ulp = static_cast<int>(std::max(exponent, 1U)) - 150;
+        multiple_ =
+            std::min(multiple_, ulp + std::countr_zero(exponent > 0 ? fraction | 1U << 23 : fraction));
+        largest_ulp_ = std::max(largest_ulp_, ulp);
+        if (some_.size() < enough) some_.insert(std::fabs(x));
     }
-    bool are_not_rounded() const { return all && some.size() == enough; }
+    bool empty() const { return some_.empty(); }
+    int largest_ulp() const { return largest_ulp_; } ///< these are exponents of 2
+
+    /// All numbers are multiples of 2^multiple.
+    int multiple() const { return multiple_; }
+    /// The chance that rounded numbers are such multiples is 2^-bits: each float is a multiple of twice its
+    /// ulp by a chance of a half.
+    int bits(int multiple) const {
+        int sum = 0;
+        for (const double x : some_) sum += std::max(0, multiple - exponent_of_ulp(x));
+        return sum;
+    }
+    bool are_many_multiples(int of) const {
+        return multiple_ >= of && some_.size() == enough && largest_ulp_ < of;
+    }
+
+  private:
+    static constexpr std::size_t enough = 24;
+    static int exponent_of_ulp(double x) { return std::max(std::ilogb(x) - 23, -149); }
+
+    int multiple_ = 1024, largest_ulp_ = -149;
+    std::set<double> some_; ///< distinct
 };
+
+/// Whether the numbers of an axis show that they were not rounded.
+bool are_not_rounded(const std::array<AxisFloats, 3>& axes, std::size_t axis) {
+    constexpr int enough = 10; // bits: one in a thousand
+    const int ulp = axes[axis].largest_ulp();
+    const int own = axes[axis].multiple() > ulp ? axes[axis].bits(axes[axis].multiple()) : 0;
+    if (own >= enough) return true;
+    int others = 0;
+    bool all = true;
+    for (const std::size_t i : {(axis + 1) % 3, (axis + 2) % 3}) {
+        if (axes[i].are_many_multiples(ulp)) return true;
+        if (axes[i].empty()) continue;
+        const int bits = axes[i].multiple() >= ulp ? axes[i].bits(ulp) : 0;
+        all = all && bits >= 4; // an axis whose floats are hardly finer shows nothing
+        others += bits;
+    }
+    return all && own + others >= enough;
+}
+
 } // namespace
 
-double float32_rounding(const Mesh& mesh) {
-    const double ulp = float32_ulp(mesh.bounds()), far = std::ldexp(ulp, 23);
-    Multiples farthest;                 // whose floats are one ulp apart
-    std::array<Multiples, 3> of_axis{}; // whose floats are all less far apart
+CoordinateErrors rounding_of(const Mesh& mesh) {
+    const Box bounds = mesh.bounds();
+    CoordinateErrors r;
+    if (bounds.empty()) return r;
+    std::array<AxisFloats, 3> axes;
+    std::size_t floats = 0;
     for (const Vec3& p : mesh.positions) {
         if (!is_float32(p)) continue;
-        bool any = farthest.all;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const bool is_far = std::fabs(p[i]) >= far;
-            if (is_far) farthest.add(p[i], 2 * ulp);
-            of_axis[i].all = of_axis[i].all && !is_far;
-            if (of_axis[i].all) of_axis[i].add(p[i], ulp);
-            any |= of_axis[i].all;
-        }
-        if (!any) return ulp;
+        ++floats;
+        for (std::size_t i = 0; i < 3; ++i) axes[i].add(p[i]);
     }
-    const auto shows_it = [](const Multiples& m) { return m.are_not_rounded(); };
-    return shows_it(farthest) || std::any_of(of_axis.begin(), of_axis.end(), shows_it) ? 0 : ulp;
+    const bool are_floats = 2 * floats >= mesh.positions.size();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double largest = std::max(std::fabs(bounds.min[i]), std::fabs(bounds.max[i]));
+        const double step = float32_ulp(Box{{0, 0, 0}, {largest, 0, 0}});
+        r.twice[i] = std::ldexp(step, -27); // 4 units of a double's last place
+        if (are_floats && !are_not_rounded(axes, i)) r.single[i] = step / 2;
+    }
+    return r;
 }
 
 namespace {

@@ -7,7 +7,7 @@ namespace facetmill {
 
 namespace {
 
-/// A directed edge between points and its count; negative: the reverse direction.
+/// A directed edge between points, with its count. A negative count means the reverse direction.
 struct CountedEdge {
     Index low, high;
     int count;
@@ -17,7 +17,7 @@ void add_edge(std::vector<CountedEdge>& edges, Index from, Index to, int count) 
     if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? count : -count});
 }
 
-/// One entry per edge that does not cancel, ascending.
+/// Leaves an entry per edge that does not cancel, ascending.
 void cancel(std::vector<CountedEdge>& edges) {
     std::sort(edges.begin(), edges.end(), [](const CountedEdge& a, const CountedEdge& b) {
         return a.low != b.low ? a.low < b.low : a.high < b.high;
@@ -32,7 +32,7 @@ void cancel(std::vector<CountedEdge>& edges) {
     edges.resize(kept);
 }
 
-/// The part of the boundary that triangles leave uncovered runs only between coincident points.
+/// Returns the part of the boundary that the triangles do not cover. It runs only between coincident points.
 std::vector<CountedEdge> left_over(const Contours& contours, const Filling& filling) {
     std::vector<CountedEdge> left;
     for (std::size_t e = 0; e < contours.edges.size(); ++e) {

@@ -1,4 +1,4 @@
-// The parts of cut faces on a side, and the sides of faces in the plane.
+// Makes the parts of cut faces on a side, and chooses the sides of faces in the plane.
 #include "geometry/cut/cut.hpp"
 
 #include "mesh/face.hpp"
@@ -9,8 +9,7 @@ namespace facetmill {
 
 namespace {
 
-/// Cuts one face. Its corners and crossings become a ring of nodes; each side consists of chains of that
-/// ring.
+/// Cuts a face. Its corners and crossings become a ring of nodes. Each side consists of chains of this ring.
 class PieceCutter {
   public:
     PieceCutter(const PlaneCut& cut, int side) : cut_(cut), side_(side) {}
@@ -30,10 +29,10 @@ class PieceCutter {
   private:
     struct Node {
         Index wedge;
-        int sign; ///< 1 on the wanted side
+        int sign; ///< 1 for nodes on the wanted side
     };
     struct Chain {
-        std::size_t begin, end; ///< nodes, from where the boundary leaves the plane to where it comes back
+        std::size_t begin, end; ///< nodes, from where the boundary leaves the plane to where it returns
     };
 
     void make_ring(Index face, const Index* crossing) {
@@ -62,8 +61,8 @@ class PieceCutter {
     const Vec3& point(std::size_t node) const { return cut_.point(cut_.vertex_of(ring_[node].wedge)); }
 
     /// An edge in the plane at the end of a chain belongs to it only if it runs in the direction of this
-    /// side's boundary in the plane; else it belongs to the other side. An edge without length belongs to
-    /// the front.
+    /// side's boundary in the plane. Otherwise the edge belongs to the other side. An edge without length
+    /// belongs to the front.
     void trim(Chain& c) const {
         const auto against = [&](std::size_t a, std::size_t b) {
             if (ring_[a].sign != 0 || ring_[b].sign != 0) return false;
@@ -74,9 +73,9 @@ class PieceCutter {
         while (c.end - c.begin > 2 && against(c.begin, c.begin + 1)) ++c.begin;
     }
 
-    /// next_[i]: the chain that follows chain i after a stretch in the plane. With several chains their ends
-    /// are paired in order along the line of the cut; where that makes no sense (self-crossing faces), in
-    /// ring order.
+    /// Sets next_[i], the chain that follows chain i after a segment in the plane. Ends of several chains
+    /// are paired in order along the line of the cut, or in ring order if that is impossible (self-crossing
+    /// faces).
     void join_chains() {
         const std::size_t n = chains_.size();
         next_.resize(n);
@@ -117,7 +116,7 @@ class PieceCutter {
 
     const PlaneCut& cut_;
     int side_;
-    Vec3 along_; ///< the way in which this side's boundary runs in the plane
+    Vec3 along_; ///< the direction of this side's boundary in the plane
     std::vector<Node> ring_;
     std::vector<Chain> chains_;
     std::vector<std::size_t> next_;

@@ -77,7 +77,7 @@ class Scorer {
 ScoreResult score(const Mesh& mesh, const ScoreSettings& settings, CutMemory& memory) {
     check_plane(settings.plane);
     PlaneCut cut = cut_by_plane(mesh, settings.plane, {settings.snap, &memory}, settings.faces);
-    if (!cut.meets()) { // all on one side, and no class was needed for that
+    if (!cut.meets()) { // the whole mesh is on one side, so classes are not needed
         ScoreResult whole{mesh, {}, {}, {}, 0, 0, 0, 0};
         for (Index f = 0; f < mesh.face_count(); ++f) whole.source.push_back(f);
         whole.sides.assign(mesh.face_count(), cut.above_count > 0 ? std::int8_t{1} : std::int8_t{-1});

@@ -56,8 +56,8 @@ void AreaSamples::place_all(std::size_t count, const std::vector<double>& areas)
 
 std::vector<AreaSamples::Run> AreaSamples::runs(std::span<const Index> order) const {
     std::vector<Run> ascending;
-    std::vector<std::uint64_t> has(surface_.size() / 64 + 1); // a bit for each triangle, and
-    std::vector<Index> before(has.size());                    // how many runs are of those before 64 of them
+    std::vector<std::uint64_t> has(surface_.size() / 64 + 1); // a bit for each triangle with samples
+    std::vector<Index> before(has.size()); // the number of runs before each group of 64 triangles
     for (std::size_t k = 0; k < size();) {
         const Index t = triangles_[k];
         const std::size_t begin = k;

@@ -26,7 +26,7 @@ struct Piece {
     Index face = none;
 };
 
-/// The greatest distance of the corners to one triangle, which bounds the whole piece.
+/// The largest distance of the corners to a single triangle, which bounds the whole piece.
 double distance_to(const FaceTree& tree, Index triangle, const Piece& piece) {
     double most = 0;
     for (const auto& c : piece.corners)
@@ -94,13 +94,13 @@ class Certifier {
 
   private:
     static constexpr std::size_t per_piece =
-        4; ///< points looked up for a piece: its middle, and of its edges
+        4; ///< points looked up for a piece: its middle, and the middles of its edges
 
     double target() const { return std::max(within_, d_.maximum) * (1 + settings_.certify_to) + slack_; }
 
     Corner corner_at(const Vec3& p, Index hint) const { return {p, closest_point(tree_, p, hint)}; }
 
-    /// The parts of the surface that may be farther than `within`. If that is next to nothing, the whole
+    /// The parts of the surface that may be farther than `within`. If `within` is nearly 0, the whole
     /// surface, because the search has only float32 precision.
     Beyond beyond_within(std::span<const Index> order, std::span<const Index> near) const {
         std::vector<Index> finite;
@@ -202,7 +202,7 @@ class Certifier {
     std::size_t round(std::vector<Piece>& later) {
         const double target = this->target();
         std::size_t looked_up = 0;
-        constexpr std::size_t batch = 16384; // outcomes are large
+        constexpr std::size_t batch = 16384; // limits memory, because outcomes are large
         for (std::size_t begin = 0; begin < pieces_.size(); begin += batch) {
             std::vector<Outcome> outcomes(std::min(batch, pieces_.size() - begin));
             parallel_for(
@@ -253,7 +253,7 @@ class Certifier {
     const FaceTree& tree_;
     const DeviationSettings& settings_;
     double within_;
-    double slack_; ///< so that the search ends on equal surfaces
+    double slack_; ///< lets the search end on equal surfaces
     std::vector<Piece> pieces_;
     double settled_ = 0;
 };

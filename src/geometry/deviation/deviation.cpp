@@ -20,10 +20,10 @@ namespace {
 constexpr double unmeasured = MeasuredSamples::unmeasured;
 constexpr std::size_t all_parts = MeasuredSamples::all_parts;
 
-/// Sums over the measured distances.
 struct DistanceSums {
     std::size_t count = 0;
-    double distances = 0, squares = 0, differences = 0; ///< the last between squares of neighbours, squared
+    double distances = 0, squares = 0,
+           differences = 0; ///< sums; differences: squared differences between the squares of neighbours
 
     DistanceSums plus(const DistanceSums& b) const {
         return {count + b.count, distances + b.distances, squares + b.squares, differences + b.differences};
@@ -166,7 +166,7 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
 
 namespace {
 
-/// The median of the longest edges of about 64 triangles.
+/// The median length of the longest edges of about 64 triangles.
 double usual_length(const Surface& surface) {
     std::vector<double> lengths;
     for (std::size_t t = 0; t < surface.size(); t += surface.size() / 64 + 1) {
@@ -180,8 +180,8 @@ double usual_length(const Surface& surface) {
     return *middle;
 }
 
-/// Whether most of about 64 points of a surface are farther from the other surface than its triangles are
-/// long. Each search starts at the previous result and stops when enough points are near.
+/// Whether most of about 64 points of a surface are farther from the other surface than the length of its
+/// triangles. Each search starts at the previous result and stops when enough points are near.
 bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
     const double near = usual_length(to);
     const std::size_t step = from.size() / 64 + 1, points = (from.size() + step - 1) / step;
@@ -198,7 +198,8 @@ bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
 /// Whether axis-aligned boxes are far larger than most of about 64 triangles, as for oblique slivers:
 /// thousands of such boxes overlap.
 bool are_askew(const Surface& surface) {
-    constexpr double far_more = 32; // times the area, on three sides of the box; at most 6 of even triangles
+    constexpr double far_more =
+        32; // ratio of the area of three box sides to the triangle's; at most 6 for even triangles
     std::size_t askew = 0, count = 0;
     for (std::size_t t = 0; t < surface.size(); t += surface.size() / 64 + 1, ++count) {
         const Vec3 &a = surface.point(t, 0), &b = surface.point(t, 1), &c = surface.point(t, 2);
@@ -271,7 +272,7 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     FaceTree first_tree = FaceTree::over(first, of_first, use_of_tree(first, second, settings)),
              second_tree = FaceTree::over(second, of_second, use_of_tree(second, first, settings));
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
-    std::vector<Index> near_first, near_second; // vertices
+    std::vector<Index> near_first, near_second; // [vertices] near triangles
     steps.next();
     flatten_if_useful(second_tree, second, first);
     result.forward = measured_to(first, first_order, second_tree, settings, near_first);

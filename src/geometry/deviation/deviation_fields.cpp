@@ -5,7 +5,7 @@ namespace facetmill {
 namespace {
 
 constexpr const char* infinite = "one of the surfaces is empty";
-constexpr const char* uncertified = "it was not certified";
+constexpr const char* uncertified = "no bound was requested";
 
 void declare_place(DeclareFields<DirectedDeviation>& d) {
     d.field("from", &DirectedDeviation::from, "The farthest sample.");
@@ -13,18 +13,17 @@ void declare_place(DeclareFields<DirectedDeviation>& d) {
     const auto face = [](const DirectedDeviation& way) {
         return way.face == none ? std::optional<Index>() : way.face;
     };
-    d.field("face", face, "The face that it lies on.").null_when("it is a vertex");
+    d.field("face", face, "The face of the sample.").null_when("the sample is a vertex");
 }
 
 void declare_way(DeclareFields<DirectedDeviation>& d) {
-    d.field(
-        "samples", &DirectedDeviation::samples,
-        "Points spread over the area; left out are those of triangles where eight or more are averaged and "
-        "stay below half of the maximum.");
+    d.field("samples", &DirectedDeviation::samples,
+            "Sample points spread over the area. The other samples of a triangle are skipped if at least "
+            "eight are averaged and stay below half of the maximum.");
     d.field(
         "averaged", &DirectedDeviation::averaged,
-        "Those of them that rms and mean are of: as many as an error of 0.5 % takes, or all; without any, "
-        "vertices.");
+        "Samples used for rms and mean: enough for an error of 0.5 %, or all. Without samples, the vertices "
+        "are used.");
     d.field("vertices", &DirectedDeviation::vertices, "Vertices measured in addition, for the maximum.");
     d.field("maximum", &DirectedDeviation::maximum, "The largest distance.")
         .unit("scene units")
@@ -35,7 +34,8 @@ void declare_way(DeclareFields<DirectedDeviation>& d) {
     d.field("mean", &DirectedDeviation::mean, "The mean distance.").unit("scene units").null_when(infinite);
     d.field(
          "bound", &DirectedDeviation::bound,
-         "A guaranteed upper bound: no point is farther than this. At least the larger maximum of both ways.")
+         "A guaranteed upper bound: no point is farther than this. It is at least the larger maximum of both "
+         "directions.")
         .unit("scene units")
         .null_when(uncertified);
     const auto at = [](const DirectedDeviation& way) {
@@ -44,7 +44,7 @@ void declare_way(DeclareFields<DirectedDeviation>& d) {
     d.object("at", at, "The position of the maximum.", declare_place).null_when("nothing was measured");
 }
 
-/// The four measures in percent of the diagonal.
+/// Declares the four measures in percent of the diagonal.
 void declare_percent(DeclareFields<DeviationResult>& d) {
     const auto percent = [](double (DeviationResult::*length)() const) {
         return [length](const DeviationResult& r) { return r.percent((r.*length)()); };
@@ -65,10 +65,10 @@ void declare_deviation_fields(DeclareFields<DeviationResult>& d) {
     d.field("maximum", &DeviationResult::maximum, "The largest distance from either surface to the other.")
         .unit("scene units")
         .null_when(infinite);
-    d.field("rms", &DeviationResult::rms, "The larger root mean square distance of both ways.")
+    d.field("rms", &DeviationResult::rms, "The larger root mean square distance of both directions.")
         .unit("scene units")
         .null_when(infinite);
-    d.field("mean", &DeviationResult::mean, "The larger mean distance of both ways.")
+    d.field("mean", &DeviationResult::mean, "The larger mean distance of both directions.")
         .unit("scene units")
         .null_when(infinite);
     d.field("bound", &DeviationResult::bound,
@@ -78,9 +78,9 @@ void declare_deviation_fields(DeclareFields<DeviationResult>& d) {
     d.field("diagonal", &DeviationResult::diagonal,
             "The diagonal of the bounding box of the reference surface.")
         .unit("scene units")
-        .null_when("it is beyond the range of numbers");
+        .null_when("the diagonal is out of the range of numbers");
     const auto self = [](const DeviationResult& r) -> const DeviationResult& { return r; };
-    d.object("percent", self, "The same in percent of the diagonal.", declare_percent);
+    d.object("percent", self, "The deviation in percent of the diagonal.", declare_percent);
     d.field("seed", &DeviationResult::seed, "The seed of the sample positions.");
     d.object("forward", &DeviationResult::forward, "From the first surface (the input) to the second.",
              declare_way);

@@ -6,8 +6,8 @@
 
 namespace facetmill {
 
-/// Both ways together and each separately, with the position of the maximum. Lengths in scene units, null
-/// when infinite; the bound is null unless certified.
+/// Declares both directions together and separately, with the position of the maximum. Lengths are in scene
+/// units, and null if infinite. The bound is null unless certified.
 void declare_deviation_fields(DeclareFields<DeviationResult>& d);
 /// The declared fields of a deviation.
 const Fields& deviation_fields();

@@ -1,12 +1,11 @@
 #pragma once
-// The deviation of a surface from itself, before and after a stage that changed nothing. Private to this
-// folder.
+// The deviation of a surface from itself, for stages that changed nothing. Private to this folder.
 
 #include "geometry/deviation/deviation.hpp"
 
 namespace facetmill {
 
-/// Whether both have the same triangles, number by number, and no coordinate that is not finite.
+/// Whether both have exactly the same triangles, with finite coordinates.
 bool are_same(const Surface& first, const Surface& second);
 
 /// The one-way deviation from itself of a surface with finite coordinates: the counts of a measurement, and

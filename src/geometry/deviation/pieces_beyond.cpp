@@ -90,16 +90,16 @@ class TriangleGroup {
     std::vector<Vec3> points_;
 };
 
-constexpr std::size_t most_cuts = 6;  ///< of an edge: 28 points make 36 parts
-constexpr std::size_t most_rows = 15; ///< of a sliver: 31 points make 29 parts
+constexpr std::size_t most_cuts = 6;  ///< maximum cuts of an edge: 28 points make 36 parts
+constexpr std::size_t most_rows = 15; ///< maximum rows of a sliver: 31 points make 29 parts
 
 double longest_edge(const SurfacePiece& piece) {
     const auto& [a, b, c] = piece.corners;
     return std::max({length(b - a), length(c - b), length(a - c)});
 }
 
-/// The number of parts of an edge, at most `most`, so that parts of even deviation are near enough to one
-/// triangle.
+/// The number of parts of an edge, at most `most`, so that parts with even deviation are near enough to a
+/// single triangle.
 std::size_t cuts_of(const SurfacePiece& piece, double distance, std::size_t most) {
     const double wanted = longest_edge(piece) / (2 * distance);
     return wanted >= static_cast<double>(most)
@@ -139,7 +139,7 @@ class PieceCutter {
             for (std::size_t i = 0; i < points_.size(); ++i)
                 if (set >> i & 1) part.corners[corner++] = points_[i];
             if (!is_within(part))
-                beyond.push_back(part); // near many triangles that are smaller than the part
+                beyond.push_back(part); // the part is near many triangles smaller than itself
         }
     }
 
@@ -178,7 +178,7 @@ class PieceCutter {
         }
     }
 
-    /// The same with n rows between the tip of a sliver and the opposite edge, which is not cut.
+    /// Divides a sliver into n rows between its tip and the opposite edge, which is not cut.
     void lay_out_rows(const SurfacePiece& piece, std::size_t tip, std::size_t n) {
         const Vec3 &a = piece.corners[tip], &b = piece.corners[(tip + 1) % 3],
                    &c = piece.corners[(tip + 2) % 3];
@@ -220,7 +220,7 @@ std::vector<Index> triangles_beyond(const Surface& from, std::span<const Index> 
         in_a_row<Index>, 1024);
 }
 
-/// The parts of the pieces that are beyond.
+/// The parts of the pieces that are beyond the distance.
 std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, bool are_parts,
                                        const FaceTree& to, double distance) {
     return parallel_reduce(
@@ -233,7 +233,7 @@ std::vector<SurfacePiece> parts_beyond(std::span<const SurfacePiece> pieces, boo
         in_a_row<SurfacePiece>, 256);
 }
 
-constexpr int most_times = 3;        ///< the most times that a triangle is cut
+constexpr int most_times = 3;        ///< the maximum number of times that a triangle is cut
 constexpr std::size_t batch = 16384; ///< pieces to cut before checking whether too many remain
 
 /// Cuts pieces up to `times` times and appends the remaining parts, including uncut pieces. Once more than

@@ -70,13 +70,13 @@ struct SampleWalk::Candidates {
     std::vector<Waiting> waiting{};
     std::vector<Vec3> points{};
     Index hint = none;
-    std::span<Index> found{}; ///< [vertices] output: a triangle within the farthest distance of each
+    std::span<Index> found{}; ///< [vertices] output: a triangle within the farthest distance of each vertex
     std::span<const Index> near_corner{}; ///< [vertices] the same, as input
     Attempts attempts{}, corner_attempts{}, across_attempts{};
     static constexpr std::size_t fewest = 8; ///< the smallest group worth comparing together
     std::size_t size = GroupDistances::most; ///< the largest group
     Known known{};
-    double rounding = 0; ///< of samples on triangles at the group's vertices
+    double rounding = 0; ///< rounding of samples on triangles at the group's vertices
 
     void add_vertex(Index v) {
         waiting.push_back({walk.from_.positions[v], none, none, v});
@@ -85,7 +85,7 @@ struct SampleWalk::Candidates {
 
     void add_unmeasured(const MeasuredSamples& samples, const AreaSamples::Run& run) {
         constexpr std::size_t many =
-            16; // above this, single tests cost more than a group test, and than a test of the corners
+            16; // above this, single tests cost more than a group test or a test of the corners
         const Index t = run.triangle;
         const bool together = run.end - run.begin >= many;
         if (have_same_near(t)) return;
@@ -112,7 +112,7 @@ struct SampleWalk::Candidates {
         const Vec3 &a = walk.from_.point(t, 0), &b = walk.from_.point(t, 1), &c = walk.from_.point(t, 2);
         Index near = none;
         known.show_within((a + b + c) / 3, -1, near);
-        const auto is_near = [&](const Vec3& corner) { // samples are rounded
+        const auto is_near = [&](const Vec3& corner) { // accounts for rounded samples
             return closest_on(walk.to_, near, corner).distance <= best.distance - distance_of_none(corner);
         };
         return near != none && is_near(a) && is_near(b) && is_near(c);
@@ -209,9 +209,9 @@ struct SampleWalk::Candidates {
     }
 
     /// Finds the points that project into a triangle within the farthest distance. Returns false if fewer
-    /// points are to be tried together.
+    /// points should be tried together.
     bool leave_out_across(std::span<const Waiting> some, std::uint32_t& left, double& laid_out) {
-        constexpr int enough = 4; // else each by itself is as fast
+        constexpr int enough = 4; // with fewer points, single tests are as fast
         if (std::popcount(left) < enough || best.distance == 0) return true;
         if (some.size() <= fewest && !across_attempts.next()) return true;
         if (laid_out == 0 && together.lay_out(points, within_what())) laid_out = within_what();

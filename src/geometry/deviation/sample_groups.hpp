@@ -8,7 +8,8 @@
 
 namespace facetmill {
 
-/// Whether to retry an attempt that often fails: after failures, fewer of up to 32 attempts are made.
+/// Decides whether to retry an attempt that often fails. After failures, attempts become rarer, down to one
+/// in 32.
 class Attempts {
   public:
     bool next() {

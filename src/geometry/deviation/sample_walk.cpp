@@ -14,8 +14,8 @@ namespace facetmill {
 namespace {
 
 /// The part of each of 18 consecutive samples has the digits of the sample's number in bases 2, 3 and 3 in
-/// reverse, so that several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen"
-/// (1935). For each part, stores bits for the samples of earlier parts.
+/// reverse. So several parts are spread evenly. After J. G. van der Corput, "Verteilungsfunktionen" (1935).
+/// For each part, stores bits for the samples of earlier parts.
 constexpr auto rows_before_parts() {
     std::array<std::uint32_t, MeasuredSamples::all_parts + 1> rows{};
     for (std::size_t part = 0; part < MeasuredSamples::all_parts; ++part) {
@@ -76,10 +76,10 @@ struct SampleWalk::Groups {
     std::vector<Vec3> points{};
     Index hint = none;
     static constexpr std::size_t fewest = 8;
-    std::size_t size = GroupDistances::most; ///< up to so many are tried together
+    std::size_t size = GroupDistances::most; ///< up to this many are tried together
     Attempts attempts{};
 
-    /// The samples of a triangle that are of the parts before this and are not measured.
+    /// Adds the unmeasured samples of a triangle that belong to earlier parts.
     void add(const AreaSamples::Run& run, std::size_t parts) {
         const AreaSamples::OnTriangle on = samples.points.on(run.triangle);
         MeasuredSamples::each_of(samples.parts, parts, run.begin, run.end, [&](std::size_t i) {
@@ -93,8 +93,8 @@ struct SampleWalk::Groups {
         waiting.clear();
     }
 
-    /// Halved across the middle of the longest side until they are few enough to be measured together, which
-    /// is fewer where the other surface has many triangles.
+    /// Halves the samples across the middle of their longest side until they can be measured together. If
+    /// the other surface has many triangles, groups are smaller.
     void measure(std::span<Waiting> some) {
         if (some.size() <= size) {
             if (measure_group(some)) return;
@@ -109,7 +109,7 @@ struct SampleWalk::Groups {
         measure(some.subspan(half));
     }
 
-    /// Returns false if each sample is to be measured separately.
+    /// Returns false if each sample must be measured separately.
     bool measure_group(std::span<const Waiting> some) {
         if (!measures_together(some)) return false;
         for (std::size_t k = 0; k < some.size(); ++k) {
@@ -140,7 +140,7 @@ struct SampleWalk::Groups {
         return measured;
     }
 
-    /// Exactly.
+    /// Measures a sample exactly.
     void measure_alone(const Waiting& w, Index near) {
         Closest c;
         if (near != none) c = closest_on(walk.to_, near, w.point);

@@ -1,7 +1,6 @@
 #pragma once
-// The points of one surface measured by a deviation, its samples and vertices, and their distances to
-// another. They are visited triangle by triangle in an order in which each is near the previous, so that
-// neighbours are measured together.
+// Measures the distances of a surface's samples and vertices to another surface. Triangles are visited so
+// that each is near the previous, and neighbours are measured together.
 
 #include "geometry/deviation/area_samples.hpp"
 #include "geometry/spatial/closest_point.hpp"
@@ -13,15 +12,15 @@
 
 namespace facetmill {
 
-/// The samples of a surface and their distances to another, as far as they are measured.
+/// The samples of a surface, and their distances to another surface if already measured.
 struct MeasuredSamples {
-    static constexpr std::size_t all_parts = 18; ///< how many parts they are measured in
+    static constexpr std::size_t all_parts = 18; ///< the number of parts in which samples are measured
     static constexpr double unmeasured = -1;
-    /// A distance that is not this many times its error is computed again, exactly, unless the error is this
-    /// part of the farthest so far.
+    /// A distance is computed again exactly if it is below this multiple of its error. It stays if the error
+    /// is below this part of the farthest distance so far.
     static constexpr double most_errors = 256, least_part = 1.0 / 16384;
 
-    /// order: the triangles, each near the one before.
+    /// order: the triangles, each near the previous.
     MeasuredSamples(const Surface& surface, std::span<const Index> order, std::size_t count,
                     std::uint64_t seed)
         : points(surface, count, seed), runs(points.runs(order)), distances(points.size(), unmeasured),
@@ -44,20 +43,20 @@ struct MeasuredSamples {
             }
     }
 
-    std::size_t chunk() const; ///< how many runs a thread takes at a time
+    std::size_t chunk() const; ///< the number of runs that a thread takes at a time
 
     AreaSamples points;
-    std::vector<AreaSamples::Run> runs; ///< in the order of the walk
+    std::vector<AreaSamples::Run> runs; ///< runs in the order of the walk
     std::size_t parts = 0;              ///< the parts before this are measured
-    std::vector<double> distances;      ///< [samples]
+    std::vector<double> distances;      ///< [samples] measured distances
     std::vector<Index> nearest; ///< [samples] for measured samples, a triangle of the other surface's tree
 
   private:
-    /// For the first sample of each part: bit i if the i-th is of an earlier part.
+    /// For the first sample of each part: bit i is set if the i-th sample belongs to an earlier part.
     static std::uint32_t row_before(std::size_t part);
 };
 
-/// A point and the one closest to it.
+/// A point and its closest point.
 struct Farthest {
     Vec3 from, to;
     double distance = -1;
@@ -69,10 +68,10 @@ struct Farthest {
 
 class SampleWalk {
   public:
-    /// order: the triangles, each near the one before.
+    /// order: the triangles, each near the previous.
     SampleWalk(const Surface& from, std::span<const Index> order, const FaceTree& to);
 
-    /// The finite vertices of triangles.
+    /// The number of finite vertices of triangles.
     std::size_t vertex_count() const;
     std::vector<Vec3> vertices() const;
 
@@ -80,13 +79,13 @@ class SampleWalk {
     /// sample if it is beyond `least`.
     Farthest measure(MeasuredSamples& samples, std::size_t parts, double least) const;
 
-    // Those that turn out nearer than one before are not searched to the end:
+    // The following searches stop early for points that are nearer than the farthest so far.
 
-    /// The farthest vertex, when it is beyond `least`. near: set to, [vertices], a triangle of the other
-    /// surface's tree that was found near each, or none.
+    /// The farthest vertex, if beyond `least`. near: output, [vertices] a triangle of the other surface's
+    /// tree near each vertex, or none.
     Farthest farthest_vertex(double least, std::vector<Index>& near) const;
-    /// The farthest of the samples that have not been measured, likewise. near: as set by farthest_vertex,
-    /// tried first where samples are few in a triangle; or empty.
+    /// The farthest unmeasured sample, if beyond `least`. near: the result of farthest_vertex, tried first
+    /// if a triangle has few samples; or empty.
     Farthest farthest_sample(const MeasuredSamples& samples, double least,
                              std::span<const Index> near = {}) const;
 

@@ -32,7 +32,7 @@ Scene bare(const Scene& scene) {
     return out;
 }
 
-/// Takes the caps out of the mesh, which keeps the vertices that no cap has.
+/// Removes the caps from the mesh and returns them. The mesh keeps vertices that no cap uses.
 Mesh taken_caps(Mesh& mesh, const std::vector<std::uint8_t>& is_cap_face) {
     Mesh caps, others;
     std::vector<std::uint8_t> of_caps(mesh.vertex_count());
@@ -50,7 +50,8 @@ Mesh taken_caps(Mesh& mesh, const std::vector<std::uint8_t>& is_cap_face) {
     return caps;
 }
 
-/// Of all parts, as parts; given: whose faces bare has. What is taken is counted.
+/// Removes the caps from all parts and returns them as parts. given: the scene of whose faces `bare`
+/// consists.
 std::vector<Part> taken_caps(Scene& bare, const Scene& given, Index last) {
     std::vector<Part> all;
     for (std::size_t i = 0; i < given.parts.size(); ++i) {
@@ -65,17 +66,16 @@ std::vector<Part> taken_caps(Scene& bare, const Scene& given, Index last) {
     return all;
 }
 
-/// Cuts triangles into n x n alike where that makes their edges at most `longest`, in the world, as long as
-/// few points are added.
+/// Cuts triangles into n x n triangles with world edges of at most `longest`, while few points are added.
 class Cutter {
   public:
     explicit Cutter(double longest) : longest_(longest) {}
 
-    /// Whether anything was cut.
+    /// Cuts a part. Returns whether any triangle was cut.
     bool operator()(Part& part) {
         const Surface surface = surface_of(part.mesh);
         bool any = false;
-        std::vector<Index> corners, faces; // of each new face the one that it is of
+        std::vector<Index> corners, faces; // corners, and source of each new face
         Mesh& mesh = part.mesh;
         for (std::size_t t = 0; t < surface.size(); ++t) {
             const Index* c = &surface.corners[3 * t];
@@ -107,7 +107,7 @@ class Cutter {
         return static_cast<std::size_t>(std::ceil(std::min(most, edge / longest_)));
     }
 
-    /// Points in rows from the first corner to the opposite edge.
+    /// Adds points in rows from the first corner to the opposite edge.
     void cut(Mesh& mesh, const std::array<Index, 3>& c, std::size_t n, std::vector<Index>& corners) {
         const Vec3 a = mesh.positions[c[0]], b = mesh.positions[c[1]], d = mesh.positions[c[2]];
         const auto share = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(n); };
@@ -153,11 +153,11 @@ struct Cell {
     Index vertex;
 };
 
-/// Sorts points into the cells of a grid of 112 along the longest side, each two or three pixels of a
+/// Sorts points into grid cells, 112 along the longest side, so that a cell is two or three pixels of a
 /// picture. Points that are not finite are in the last cell.
 std::vector<Cell> cells_of(const std::vector<Vec3>& points, const Box& box) {
     constexpr double along = 111;
-    constexpr int bits = 8; // of each coordinate
+    constexpr int bits = 8; // bits of each coordinate
     constexpr std::uint64_t none_of_them = std::uint64_t{1} << 3 * bits;
     const double longest = box.longest_side();
     const double scale = longest > 0 ? along / longest : 0;
@@ -181,7 +181,7 @@ class Reduced {
     std::vector<float> distances(std::size_t& looked_up) {
         const Box box = box_of_finite(points_.size(), [&](std::size_t i) { return points_[i]; });
         const auto cells = cells_of(points_, box);
-        std::vector<Index> first; // of the cells
+        std::vector<Index> first; // first vertex of each cell
         for (std::size_t i = 0; i < cells.size(); ++i)
             if (i == 0 || cells[i].key != cells[i - 1].key) first.push_back(cells[i].vertex);
         const auto of_cells = look_up(first, looked_up);
@@ -223,7 +223,7 @@ class Reduced {
     const std::vector<Vec3>& points_;
 };
 
-/// Takes distances into account for the extremes.
+/// Updates the extremes with these distances.
 void add_extremes(SignedDeviation& out, std::span<const Vec3> points, const std::vector<float>& distances) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double d = distances[i];
@@ -237,7 +237,7 @@ void add_extremes(SignedDeviation& out, std::span<const Vec3> points, const std:
     }
 }
 
-/// The sum of the area vectors of the triangles at the worst place: a corner of theirs, or on them.
+/// The sum of the area vectors of the triangles that contain the worst point.
 Vec3 worst_normal(const Surface& surface, const std::vector<SurfaceSample>& samples, const Vec3& worst) {
     Vec3 sum;
     const auto add = [&](std::size_t t) {
@@ -279,7 +279,7 @@ void add_means(SignedDeviation& out) {
 } // namespace
 
 bool cut_large_faces(Scene& scene, double diagonal) {
-    constexpr double along_diagonal = 64; // as many pieces, each some pixels of a picture
+    constexpr double along_diagonal = 64; // pieces along the diagonal, each a few pixels of a picture
     Cutter cut(diagonal / along_diagonal);
     bool any = false;
     for (Part& part : scene.parts) any |= cut(part);

@@ -23,34 +23,34 @@ struct SignedDeviationSettings {
     std::optional<Index> last_cap = {};
 };
 
-/// Cuts the triangles of all parts whose edges are longer than a 64th of the diagonal, so that vertex
-/// colours show their inside, as long as few points are added. Returns whether any triangle was cut. Such a
-/// part then has only triangles, no seams, and only face attributes. O(n).
+/// Cuts triangles with edges longer than a 64th of the diagonal, so that vertex colours show their inside,
+/// while few points are added. Returns whether any triangle was cut. A cut part has only triangles, no
+/// seams, and only face attributes. O(n).
 bool cut_large_faces(Scene& scene, double diagonal);
 
-/// The largest number of a cap in a scene: of the face attribute cut_id, 0 where nothing was capped.
+/// The largest cap number in a scene, by the face attribute cut_id; 0 without caps.
 [[nodiscard]] Index last_cap(const Scene& scene);
 
 /// Distances are positive outside: on the side that the nearest face of the reference faces.
 struct SignedDeviation {
-    /// The faces alone, each vertex with its distance (0 where it is not finite). Large faces are cut into
+    /// Only the faces, with a distance at each vertex (0 if it is not finite). Large faces are cut into
     /// small faces, so that the colours show their inside.
     Scene scene;
-    bool is_cut = false;  ///< some are
-    std::size_t caps = 0; ///< faces that were not measured: parts of their own, last, without distances
+    bool is_cut = false;  ///< some faces were cut
+    std::size_t caps = 0; ///< unmeasured faces, as separate parts at the end without distances
     std::vector<float>
-        samples; ///< distances of points spread over the area; of vertices if the scene has no area
-    std::size_t looked_up = 0; ///< points in all
+        samples; ///< distances of points spread over the area, or of vertices if the scene has no area
+    std::size_t looked_up = 0; ///< total number of points
     double low = 0, high = 0;  ///< the smallest and the largest distance that was seen
-    double mean = 0, rms = 0;  ///< of the absolute values of the samples
+    double mean = 0, rms = 0;  ///< mean and RMS of the samples' absolute values
     Vec3 worst;                ///< the vertex or sample that is farthest, in the world
     double worst_distance = 0;
-    Vec3 worst_normal; ///< of the faces there, not of unit length; zero without faces
+    Vec3 worst_normal; ///< normal of the faces at `worst`, not of unit length; zero without faces
     bool any() const { return looked_up > 0; }
 };
 
 /// Measures from the scene, in world space, to the reference, so parts of the reference missing in the scene
-/// have no effect. Empty if the reference or the scene is empty. The result is the same for any number of
+/// have no effect. Empty if the reference or the scene is empty. The result does not depend on the number of
 /// threads. O((vertices + samples) log n).
 [[nodiscard]] SignedDeviation signed_deviation(const Scene& scene, const FaceTree& reference,
                                                const SignedDeviationSettings& settings = {});

@@ -1,5 +1,5 @@
 #pragma once
-// Faces at an edge, compared by exact predicates.
+// Compares faces around an edge by exact predicates.
 
 #include "base/math/predicates.hpp"
 #include "mesh/face.hpp"
@@ -10,15 +10,15 @@
 
 namespace facetmill {
 
-/// A point of the half plane, bounded by the line of the edge, in which the face of corner c starts from the
-/// edge at c. A vertex of the face when it is a triangle.
+/// A point in the half plane, bounded by the line of the edge, in which the face continues from the edge at
+/// corner c. For a triangle, it is the third vertex.
 [[nodiscard]] inline Vec3 beside_edge(const Mesh& mesh, Index f, Index c) {
     const Index next = next_corner(mesh, f, c);
     if (mesh.face_size(f) == 3) return mesh.point(next_corner(mesh, f, next));
     return mesh.point(c) + cross(normalised(area_vector(mesh, f)), mesh.point(next) - mesh.point(c));
 }
 
-/// For p in the plane of u, v, q: whether p is on q's side of the line u v, exactly.
+/// Whether p is on q's side of the line u v, exactly. p must be in the plane of u, v and q.
 inline bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3& p) {
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t x = (i + 1) % 3, y = (i + 2) % 3;
@@ -32,11 +32,12 @@ inline bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3
 struct EdgeLeaf {
     Index corner;
     Vec3 beside;
-    bool forward; ///< from the edge's low vertex to its high one
-    int half = 0; ///< of the turn around the edge, counted from the first leaf: 0 on it, 1, 2 opposite, 3
+    bool forward; ///< from the edge's low vertex to its high vertex
+    int half = 0; ///< half turn around the edge, counted from the first leaf: 0 on it, 1, 2 opposite, 3
 };
 
-/// Sorts the leaves by their angle from the first around the edge from u to v, exactly; ties by corner.
+/// Sorts the leaves exactly by their angle from the first leaf around the edge from u to v. Ties are sorted
+/// by corner.
 inline void sort_around_edge(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf>& leaves) {
     const Vec3 start = leaves[0].beside;
     for (EdgeLeaf& l : leaves) {

@@ -53,7 +53,7 @@ Groups wedges_of_vertices(const Mesh& mesh) {
     return g;
 }
 
-/// The first of the wedges of one vertex, which ascend, that each of them equals.
+/// For each of a vertex's wedges (ascending), finds the first equal wedge.
 void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, std::vector<Index>& different,
                           std::vector<Index>& representative) {
     constexpr std::size_t few = 32; // up to this many different wedges are compared linearly
@@ -76,7 +76,7 @@ void find_representatives(std::span<const Index> wedges, const WedgeBits& bits, 
             i > 0 && bits.compare(sorted[i - 1], sorted[i]) == 0 ? representative[sorted[i - 1]] : sorted[i];
 }
 
-/// Keeps the wedges that represent themselves, in order; attributes follow.
+/// Keeps only wedges that represent themselves, in order, with their attributes.
 void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) {
     std::vector<Index> kept, number(representative.size());
     for (Index w = 0; w < representative.size(); ++w)
@@ -113,6 +113,12 @@ std::size_t merge_equal_wedges(Mesh& mesh) {
     keep_representatives(mesh, representative);
     const std::size_t merged = before - mesh.wedge_count();
     normalise_wedges(mesh);
+    return merged;
+}
+
+std::size_t merge_and_drop_wedges(Mesh& mesh) {
+    const std::size_t merged = merge_equal_wedges(mesh);
+    if (merged > 0 && (mesh.face_count() > 0 || mesh.line_count() > 0)) drop_unused(mesh);
     return merged;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
-// Wedges that have no reason to be apart.
+// Merges equal wedges.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
-/// Merges wedges of one vertex with bit-equal attributes into the first, as unindexed glTF and joined tiles
-/// repeat them. Returns the number of removed wedges. Faces keep their corners' order; vertices and wedges
-/// that no face uses stay. O(n log k) for k wedges at a vertex, parallel.
+/// Merges wedges of a vertex with bit-equal attributes into the first. Unindexed glTF and joined tiles have
+/// many such wedges. Returns the number of removed wedges. Faces keep their corners' order; vertices and
+/// wedges that no face uses stay. O(n log k) for k wedges at a vertex, parallel.
 std::size_t merge_equal_wedges(Mesh& mesh);
+
+/// The same; then drops what no face or line uses, if wedges were merged. A cloud keeps its points.
+std::size_t merge_and_drop_wedges(Mesh& mesh);
 
 } // namespace facetmill

@@ -53,7 +53,7 @@ void multiply(const Part& part, const std::string& name, std::vector<double>& sh
     if (!a) refuse(part, fmt::format("attribute '{}'", name));
     std::vector<double> least(shares.size(), 1);
     for (std::size_t i = 0; i < a->size(); ++i) {
-        const double value = a->value(i, 0), x = value >= 0 ? std::min(value, 1.0) : 0; // not a number: 0
+        const double value = a->value(i, 0), x = value >= 0 ? std::min(value, 1.0) : 0; // NaN becomes 0
         if (a->domain == Domain::face) {
             lower(mesh, static_cast<Index>(i), x, least);
             continue;

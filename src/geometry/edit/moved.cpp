@@ -40,7 +40,7 @@ bool straighten(Attribute& tangent, const Attribute& normals) {
 MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& after,
                    const Transform& to_world) {
     struct Sums {
-        double largest = 0, all = 0; ///< of squares
+        double largest = 0, all = 0; ///< largest square, and sum of squares
         std::size_t count = 0;
     };
     const Sums sums = parallel_reduce(

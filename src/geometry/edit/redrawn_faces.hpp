@@ -1,5 +1,5 @@
 #pragma once
-// Other faces on the vertices and wedges of a mesh.
+// Builds new faces on the vertices and wedges of a mesh.
 
 #include "mesh/provenance.hpp"
 
@@ -27,7 +27,7 @@ struct RedrawnFaces {
         mesh.face_offsets.push_back(0);
         provenance.vertices.identity = provenance.wedges.identity = true;
     }
-    /// of: the face of the other mesh that the corners since the last one come from.
+    /// Ends the face of the corners added since the last call. of: their source face in the other mesh.
     void end_face(Index of) {
         mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
         provenance.faces.push_back(of);

@@ -13,8 +13,8 @@ namespace facetmill {
 
 namespace {
 
-/// Pairs of corners that stay together along a crowded edge, because the inside is between them. Around the
-/// edge, a forward face follows the inside, and a backward face precedes it.
+/// Pairs of corners that stay together along a crowded edge, because the inside is between their faces.
+/// Around the edge, a forward face follows the inside, and a backward face precedes it.
 std::vector<std::pair<Index, Index>> pairs_along(std::vector<EdgeLeaf> leaves) {
     std::vector<std::pair<Index, Index>> pairs;
     for (bool found = true; found && leaves.size() > 1;) {
@@ -94,7 +94,8 @@ class Joints {
     std::vector<std::uint8_t> open_; ///< [faces] only if the mesh has crowded edges
 };
 
-/// The corners of a crowded edge that get a point together, as pairs; a face left over twice.
+/// The corners of a crowded edge that share a new point, as pairs. A single remaining face is paired with
+/// itself.
 std::vector<std::pair<Index, Index>> groups_at(const EdgeTable& edges, const Joints& joints, Index e) {
     const auto corners = edges.corners_of(e);
     auto groups = joints.at(e);
@@ -106,7 +107,7 @@ std::vector<std::pair<Index, Index>> groups_at(const EdgeTable& edges, const Joi
     return groups;
 }
 
-/// The faces that the faces of a mesh come from once vertices were put on its edges.
+/// The source of each face of a mesh after vertices were inserted on its edges.
 std::vector<Index> parents_of(const Mesh& mesh, const std::vector<Index>& faces,
                               const std::vector<Insertion>& insertions) {
     std::vector<Index> pieces(mesh.face_count(), 1);
@@ -124,7 +125,7 @@ Fans disjoint_fans(const Mesh& mesh) { return disjoint_fans(mesh, build_edges(me
 Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges) {
     const auto faces = corner_faces(mesh);
     const Joints joints(mesh, edges, faces);
-    // Corners at a vertex are of one fan when a joint at that vertex links them.
+    // Corners at a vertex belong to the same fan if a joint at this vertex links them.
     DisjointSets fans(mesh.corner_count());
     const auto link = [&](Index a, Index b) {
         const Index a_end = next_corner(mesh, faces[a], a), b_end = next_corner(mesh, faces[b], b);

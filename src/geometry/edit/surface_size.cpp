@@ -11,7 +11,7 @@ namespace {
 
 struct SizeSums {
     double area = 0, volume = 0;
-    std::uint64_t boundary = 0; ///< each directed edge once, its reverse as the negative
+    std::uint64_t boundary = 0; ///< sum over directed edges, where a reversed edge counts negative
 };
 
 /// The sums to compute in addition to the area.
@@ -19,7 +19,7 @@ struct Wanted {
     bool volume = true, boundary = false;
 };
 
-/// place(corner): where it is, seen from a point near the surface.
+/// place(corner): its position relative to a point near the surface.
 template <class Place>
 void add_face(SizeSums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners, bool volume,
               Place&& place) {
@@ -76,7 +76,7 @@ SizeSums far_sums_of(const Mesh& mesh, Wanted wanted, const Transform& to_world,
     return sums_of(mesh, wanted, [&](Index c) { return scale(to_world.point(mesh.point(c))) - from; });
 }
 
-/// A box that holds the other one's corners, and so everything within it, after a transform.
+/// A box that contains the transformed corners of the other box, and so its transformed contents.
 Box box_after(const Box& box, const Transform& to_world) {
     Box all;
     if (box.empty()) return all;
@@ -86,7 +86,7 @@ Box box_after(const Box& box, const Transform& to_world) {
     return all;
 }
 
-/// A surface as its sums see it: from its centre, at a scale where products neither overflow nor vanish.
+/// A surface relative to its centre, scaled so that products neither overflow nor underflow.
 struct Sight {
     Sight(const Mesh& mesh, const Transform& to_world) {
         const Box box = box_of(mesh.positions);

@@ -28,7 +28,7 @@ void forget_plain_wedges(Mesh& mesh) {
     mesh.wedge_vertex = {};
 }
 
-/// The remaining elements, and the new number of each old element (gone for removed elements).
+/// The remaining elements, and the new number of each old element (`gone` if removed).
 struct Numbering {
     std::vector<Index> old, renumbered;
     explicit Numbering(const std::vector<std::uint8_t>& stays) : renumbered(stays.size(), gone) {
@@ -40,7 +40,7 @@ struct Numbering {
     }
 };
 
-/// All old elements come first.
+/// All old elements, unchanged.
 Provenance all_of() {
     Provenance l;
     l.identity = true;
@@ -117,7 +117,7 @@ std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of
         }
         inherit_attributes(piece, mesh, provenance);
         for (const Index w : provenance.wedges.copies)
-            new_wedge[w] = gone; // a vertex may be of several pieces
+            new_wedge[w] = gone; // a vertex may belong to several pieces
         for (const Index v : provenance.vertices.copies) new_vertex[v] = gone;
         normalise_offsets(piece);
         forget_plain_wedges(piece);
@@ -181,7 +181,7 @@ Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
     provenance.vertices.copies.insert(provenance.vertices.copies.end(), copies.begin(), copies.end());
     for (const Index v : provenance.vertices.copies) result.positions.push_back(mesh.positions[v]);
     result.face_offsets = mesh.face_offsets;
-    if (!mesh.has_seams()) { // every vertex is its wedge, the new ones too
+    if (!mesh.has_seams()) { // every vertex is its own wedge, including new vertices
         result.corners = vertex_of_corner;
         provenance.wedges = provenance.vertices;
     } else {
@@ -276,8 +276,8 @@ class Inserter {
         sources_.push_back(f);
     }
 
-    /// Cuts a triangle with points on its sides: from the first such point to the corner opposite, and on. No
-    /// piece has three points of one side.
+    /// Cuts a triangle with points on its sides: first from a point to the opposite corner, then each part
+    /// further. No piece has three points on the same side.
     void emit_triangles(Index f) {
         std::vector<std::vector<RingCorner>> stack{ring_};
         while (!stack.empty()) {
@@ -289,7 +289,7 @@ class Inserter {
             }
             std::size_t at = 0;
             while (ring[at].original) ++at;
-            // From the point on, the ring has the end of its side, then the corner opposite.
+            // After the point, the ring has the end of its side, then the opposite corner.
             std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(at), ring.end());
             std::size_t opposite = 1, corners = 0;
             for (; corners < 2; ++opposite) corners += ring[opposite].original;
@@ -324,7 +324,7 @@ class Inserter {
     const Mesh& mesh_;
     std::vector<Insertion> insertions_;
     const std::vector<Provenance::Edge>& added_;
-    bool plain_; ///< a wedge consists of its vertex only
+    bool plain_; ///< wedges are the vertices
     std::vector<Index> wedges_;
     std::vector<Provenance::Edge> edges_;
     std::map<std::tuple<Index, Index, Index>, Index> made_;

@@ -1,6 +1,6 @@
 #pragma once
-// The cuts and stitches that repairs are made of: faces that go, vertices that merge or part, points put on
-// edges, patches. Each gives a new mesh in which all else is as it was, in the same order.
+// Basic operations for repairs: removing faces, merging and separating vertices, inserting points on edges,
+// adding patches. Each makes a new mesh in which all other elements stay unchanged, in the same order.
 
 #include "mesh/mesh.hpp"
 #include "mesh/provenance.hpp"
@@ -14,13 +14,13 @@ namespace facetmill {
 /// vertices and wedges without faces stay.
 [[nodiscard]] Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);
 
-/// One mesh per label below count: the faces of that label in order, with the vertices and wedges that they
-/// use, in order of use. Isolated vertices go. O(corners), for any number of labels.
+/// A mesh for each label below count: the faces with this label in order, with their vertices and wedges in
+/// order of use. Isolated vertices are removed. O(corners), for any number of labels.
 [[nodiscard]] std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face,
                                           std::size_t count);
 
-/// The same, each mesh with a table of its own primitives, in the order of the original table. O(corners),
-/// also for meshes of many primitives.
+/// Like separated, but each mesh lists only the primitives that it uses, in their original order.
+/// O(corners), even for many primitives.
 [[nodiscard]] std::vector<Mesh> separated_with_primitives(Mesh mesh, const std::vector<Index>& label_of_face,
                                                           std::size_t count);
 
@@ -28,7 +28,7 @@ namespace facetmill {
 [[nodiscard]] std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags);
 
 /// Vertex v becomes target[v] <= v, for which target[target[v]] == target[v]; the others keep their order.
-/// Wedges stay separate when the mesh has wedge attributes. Faces are kept, also faces that lose their area.
+/// Wedges stay separate when the mesh has wedge attributes. All faces stay, even if they lose their area.
 /// Returns the number of removed vertices.
 std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target);
 
@@ -40,25 +40,25 @@ std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target);
 
 /// A vertex to be put on the edge that starts at a corner.
 struct Insertion {
-    Index corner; ///< of the face; the edge runs to the next corner
-    double t;     ///< where on the edge, above 0 and below 1
+    Index corner; ///< corner of the face; the edge runs to the next corner
+    double t;     ///< position on the edge, above 0 and below 1
     Index vertex; ///< an existing vertex, or a new one: vertex count + its index in `added`
 };
 
 /// Inserts the vertices into the edges: a triangle becomes triangles, a larger face gets corners. New
-/// vertices are interpolated between the ends given in added; so are wedges, once per pair of wedges and
-/// vertex. `changes` receives the changes of the attributes.
+/// vertices are interpolated between the ends given in `added`. Wedges are interpolated once per vertex and
+/// pair of wedges. `changes` receives the changes of the attributes.
 Mesh insert_on_edges(const Mesh& mesh, std::vector<Insertion> insertions,
                      const std::vector<Provenance::Edge>& added, AttributeChanges* changes = nullptr);
 
-/// Faces to be added. A corner names a wedge of the mesh, or wedge count + i for new point i.
+/// Faces to add. A corner is a wedge of the mesh, or the wedge count + i for new point i.
 struct Patches {
-    std::vector<Vec3> points;          ///< new vertices, a wedge each
-    std::vector<Index> mix_offsets{0}; ///< [points + 1] into mix_wedges: where their attributes come from
+    std::vector<Vec3> points;          ///< new vertices, each with a wedge
+    std::vector<Index> mix_offsets{0}; ///< [points + 1] offsets into mix_wedges, the sources of attributes
     std::vector<Index> mix_wedges;
-    std::vector<double> mix_weights; ///< summing to one
+    std::vector<double> mix_weights; ///< weights that sum to one per point
     std::vector<Index> corners;
-    std::vector<Index> offsets{0}; ///< [faces + 1] into corners
+    std::vector<Index> offsets{0}; ///< [faces + 1] offsets into corners
     std::vector<Index> sources;    ///< [faces] the face whose attributes each copies
 
     void add_face(std::span<const Index> wedges, Index source);

@@ -11,9 +11,9 @@ namespace facetmill {
 
 namespace {
 
-/// The lists of boundary edges at each vertex that has some.
+/// The boundary edges at each vertex.
 struct BoundaryEdgesAt {
-    std::vector<std::pair<Index, Index>> by_vertex; ///< (vertex, edge), sorted
+    std::vector<std::pair<Index, Index>> by_vertex; ///< sorted pairs of vertex and edge
     explicit BoundaryEdgesAt(const std::vector<BoundaryEdge>& edges) {
         for (Index i = 0; i < edges.size(); ++i) {
             by_vertex.emplace_back(edges[i].from, i);
@@ -29,8 +29,8 @@ struct BoundaryEdgesAt {
     }
 };
 
-/// The parameter of p on the segment a b if p is inside it: exactly on it, or within tolerance and farther
-/// than that from the ends.
+/// The parameter of p on the segment a b, if p is inside it: exactly on it, or within the tolerance and
+/// farther from the ends than the tolerance.
 std::optional<double> place_on(const Vec3& a, const Vec3& b, const Vec3& p, double tolerance) {
     const Vec3 along = b - a;
     const double t = dot(p - a, along) / dot(along, along);

@@ -21,10 +21,10 @@ namespace {
 
 // Surfaces on a cubic lattice: cube and Menger sponge.
 
-/// Quads whose corners are points of a lattice of n cells a side, by the key of the point.
+/// Quads whose corners are points of a lattice with n cells a side. A key identifies each point.
 struct LatticeQuads {
     std::uint64_t n;
-    std::vector<std::uint64_t> keys = {}; ///< four to a quad
+    std::vector<std::uint64_t> keys = {}; ///< four per quad
 
     std::uint64_t key(const std::array<std::uint64_t, 3>& p) const {
         return (p[2] * (n + 1) + p[1]) * (n + 1) + p[0];
@@ -41,14 +41,14 @@ struct LatticeQuads {
         if (!positive) std::swap(across, along);
         for (const auto& p : {c, across, far, along}) keys.push_back(key(p));
     }
-    /// Lattice coordinate to [-1/2, 1/2]; opposite points get exactly opposite values.
+    /// Maps a lattice coordinate to [-1/2, 1/2]. Opposite points get exactly opposite values.
     double place(std::uint64_t i) const {
         return (2 * static_cast<double>(i) - static_cast<double>(n)) / (2 * static_cast<double>(n));
     }
     Mesh mesh() const;
 };
 
-/// Vertices in the order of their keys.
+/// Makes the mesh, with vertices in the order of their keys.
 Mesh LatticeQuads::mesh() const {
     struct Corner {
         std::uint64_t key;
@@ -98,7 +98,7 @@ Mesh lattice_cube(std::int64_t cells) {
     return quads.mesh();
 }
 
-/// The outer surface of the Menger sponge of side 1 around the origin. It has one quad for every lattice face
+/// The outer surface of the Menger sponge of side 1 around the origin. It has a quad for every lattice face
 /// between the sponge and empty space: 2 * 20^level + 4 * 8^level quads, closed and manifold. level 0 to 6.
 Mesh lattice_sponge(int level) {
     std::uint64_t n = 1;
@@ -126,7 +126,7 @@ void need(bool holds, std::string_view what, const std::string& found, std::stri
                     std::move(hint));
 }
 void need_length(double x, std::string_view name) {
-    constexpr double most = 1e37; // a diagonal of that is still a float32
+    constexpr double most = 1e37; // a diagonal of this length still fits float32
     need(x > 0, fmt::format("{} is above 0", name), to_string(x));
     need(x <= most, fmt::format("{} is at most 1e+37, because files hold float32", name), to_string(x),
          "use a smaller length, or a larger unit");
@@ -143,12 +143,13 @@ void refuse_giants(const GenerateSettings& s) {
             fmt::format("generate: the shape would have about {:.3g} faces, at most {:.3g} are possible",
                         faces, 2147483648.0 / 3),
             "ask for fewer faces, cells or subdivisions");
-    // Per triangle: three corners and half a vertex, twice while quads are cut, and the memory for sorting.
+    // Memory per triangle: three corners and half a vertex, twice while quads are cut, plus memory for
+    // sorting.
     require_memory(100 * faces, fmt::format("generate: a shape of {:.3g} faces", faces),
                    "ask for fewer faces, cells or subdivisions");
 }
 
-/// Points in rows of `segments`, row r and place i of a row by at(r, i).
+/// Points in rows of `segments`. at(r, i) is point i of row r.
 struct Rows {
     Index segments, first = 0;
     Index at(Index row, Index i) const { return first + row * segments + i % segments; }
@@ -180,12 +181,12 @@ void add_ring(Mesh& mesh, const std::vector<Direction>& directions, double radiu
     for (const auto& d : directions) mesh.positions.push_back({radius * d.cosine, radius * d.sine, z});
 }
 
-/// Quads between row and the row above it.
+/// Adds quads between a row and the row above it.
 void add_band(Mesh& mesh, const Rows& rows, Index below, Index above) {
     for (Index i = 0; i < rows.segments; ++i)
         add_quad(mesh, rows.at(below, i), rows.at(below, i + 1), rows.at(above, i + 1), rows.at(above, i));
 }
-/// Triangles from a row to a point: above it (up) or below it.
+/// Adds triangles from a row to a point above it (up) or below it.
 void add_fan(Mesh& mesh, const Rows& rows, Index row, Index apex, bool up) {
     for (Index i = 0; i < rows.segments; ++i)
         up ? add_triangle(mesh, rows.at(row, i), rows.at(row, i + 1), apex)
@@ -257,7 +258,7 @@ Mesh cone(const GenerateSettings& s) {
     return mesh;
 }
 
-/// A square of cells x cells quads around the origin, at the height that height(x, y) says.
+/// A square of cells x cells quads around the origin, at the height height(x, y).
 template <class Height>
 Mesh field(const GenerateSettings& s, Height&& height) {
     Mesh mesh;
@@ -382,7 +383,7 @@ SphereBands sphere_bands(std::int64_t faces) {
         best_count = count;
         best_skew = skew;
     };
-    // There are at most 4 segments for each ring, and rings - 1 is half / segments or the next.
+    // At most 4 segments are used for each ring, and rings - 1 is half / segments, rounded down or up.
     for (std::int64_t segments = 3; segments <= 12 || segments * segments <= 16 * half; ++segments)
         for (std::int64_t rings = half / segments + 1; rings <= half / segments + 2; ++rings)
             consider(segments, rings);

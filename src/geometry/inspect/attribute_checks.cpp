@@ -1,4 +1,4 @@
-// The properties that are about attributes.
+// Implements the properties of attributes.
 #include "base/math/random.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "parallel/parallel.hpp"
@@ -9,13 +9,13 @@ namespace facetmill::inspect_room {
 
 namespace {
 
-/// A truth about the elements of some attributes.
+/// A truth property of the elements of some attributes.
 struct AttributeCheck {
     bool (*concerns)(const Attribute& attribute);
-    /// Whether element i keeps it from holding.
+    /// Whether element i violates the property.
     bool (*fails)(const Mesh& mesh, const Attribute& attribute, std::size_t i);
     bool together = false; ///< all of these attributes are judged together and reported with the first
-    bool of_any = false;   ///< it holds for a mesh without such attributes, else it does not apply
+    bool of_any = false; ///< true if it holds for a mesh without such attributes; otherwise it does not apply
 };
 
 bool outside_unit(const Mesh&, const Attribute& a, std::size_t i) {
@@ -33,10 +33,10 @@ bool not_finite(const Mesh&, const Attribute& a, std::size_t i) {
 bool not_unit(const Mesh&, const Attribute& a, std::size_t i) {
     double sum = 0;
     for (int c = 0; c < std::min(3, a.components); ++c) sum += a.value(i, c) * a.value(i, c);
-    return !(std::abs(std::sqrt(sum) - 1) <= 1.0 / 127); // a step of the coarsest type
+    return !(std::abs(std::sqrt(sum) - 1) <= 1.0 / 127); // within a step of the coarsest type
 }
 
-/// Over all sets of weights, to a step of the coarsest type.
+/// Tests the sum over all sets of weights, within a step of the coarsest type.
 bool sum_is_not_one(const Mesh& mesh, const Attribute&, std::size_t i) {
     double sum = 0;
     for (const auto& a : mesh.attributes)
@@ -111,7 +111,7 @@ std::vector<Location> failing(const Mesh& mesh, const AttributeCheck& check, con
                    [&](const Attribute& a, std::size_t i) { return check.fails(mesh, a, i); });
 }
 
-/// The highest joint that the element names, and one.
+/// One more than the highest joint of the element.
 double joints_of(const Attribute& a, std::size_t i) {
     double most = 0;
     for (int c = 0; c < a.components; ++c) most = std::max(most, a.value(i, c) + 1);

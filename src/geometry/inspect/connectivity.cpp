@@ -15,17 +15,17 @@ struct Wing {
     Index vertex, before, after;
 };
 
-/// One side of a wing: the edge from the vertex to `to`, along which the face leaves the vertex or arrives at
-/// it. The slot says which side of which wing.
+/// A side of a wing: the edge from the vertex to `to`, along which the face leaves the vertex or arrives at
+/// it. The slot identifies wing and side.
 struct Side {
-    Index to, slot; ///< slot: 2 * wing + (1 when it leaves)
+    Index to, slot; ///< slot: 2 * wing, plus 1 if the face leaves the vertex
     bool operator<(const Side& b) const { return to != b.to ? to < b.to : slot < b.slot; }
 };
 
 using EdgeKey = std::uint64_t;
 EdgeKey key_of(Index a, Index b) { return EdgeKey{std::min(a, b)} << 32 | std::max(a, b); }
 
-/// The contribution of one bucket of vertices.
+/// The contribution of a bucket of vertices.
 struct Found {
     Connectivity counts;
     std::vector<EdgeKey> boundary;                  ///< boundary edges, each once
@@ -45,7 +45,7 @@ void sort_sides(std::vector<Side>& sides) {
     }
 }
 
-/// Looks at the wings of one vertex after the other; keeps its room between them.
+/// Examines the wings of one vertex after the other, and reuses its memory.
 class LinkReader {
   public:
     LinkReader(bool triangles, std::span<const Turn> turns, Found& found)
@@ -59,7 +59,8 @@ class LinkReader {
         }
         if (is_closed_fan(v, wings)) {
             for (const Wing& w : wings) found_.counts.edges += counts_edge(v, w.before);
-            if (triangles_ && wings.size() == 2) count_duplicates(v, wings); // more than two are no two alike
+            if (triangles_ && wings.size() == 2)
+                count_duplicates(v, wings); // if there are more than two wings, no two are equal
             return;
         }
         sides_.clear();
@@ -75,10 +76,11 @@ class LinkReader {
 
   private:
     Turn turn_of(Index v) const { return turns_.empty() ? Turn::now : turns_[v]; }
-    /// Whether the wings go round v once and agree, as most do: each ends where exactly one other begins. All
-    /// edges have two uses then, which cancel, and there is one fan: nothing has to be sorted to see it.
+    /// Whether the wings go round v once consistently, which is usual: each ends where exactly one other
+    /// begins. All edges then have two uses, which cancel, and form a single fan. This test needs no
+    /// sorting.
     static bool is_closed_fan(Index v, std::span<const Wing> wings) {
-        constexpr std::size_t most = 16; // each wing is compared with all
+        constexpr std::size_t most = 16; // limit, because each wing is compared with all others
         if (wings.size() > most) return false;
         std::size_t at = 0, passed = 0;
         do {
@@ -96,12 +98,12 @@ class LinkReader {
         } while (at != 0 && passed < wings.size());
         return at == 0 && passed == wings.size();
     }
-    /// Whether the edge is counted at v, of its two ends.
+    /// Whether v is the end at which the edge is counted.
     bool counts_edge(Index v, Index to) const {
         return turn_of(to) == Turn::now ? v < to : turn_of(to) == Turn::later;
     }
 
-    /// Runs of sides to the same vertex are the uses of one edge.
+    /// Reads edges: runs of sides to the same vertex are the uses of an edge.
     void read_edges(Index v, std::size_t wings) {
         partner_.assign(2 * wings, none);
         ends_.clear();
@@ -134,8 +136,7 @@ class LinkReader {
         }
     }
 
-    /// The wings passed when walking from a slot across the wing to the next, until the fan ends or comes
-    /// round.
+    /// The number of wings passed when walking from a slot across wings, until the fan ends or closes.
     std::size_t walk(Index slot, Index& last) const {
         const Index start = slot;
         std::size_t passed = 0;
@@ -159,7 +160,8 @@ class LinkReader {
         read_several_fans(v, wings);
     }
 
-    /// The general case: wings that share an edge are one fan; so are the boundary edges at its ends.
+    /// Handles the general case: wings that share an edge belong to the same fan, as do the boundary edges
+    /// at its ends.
     void read_several_fans(Index v, std::size_t wings) {
         fan_.resize(wings);
         for (Index i = 0; i < wings; ++i) fan_[i] = i;
@@ -187,7 +189,7 @@ class LinkReader {
         return i;
     }
 
-    /// Each triangle is looked at from its lowest vertex; triangles with a repeated vertex are counted
+    /// Counts each duplicate triangle at its lowest vertex. Triangles with a repeated vertex are counted
     /// elsewhere.
     void count_duplicates(Index v, std::span<const Wing> wings) {
         opposite_.clear();
@@ -200,7 +202,7 @@ class LinkReader {
     }
 
     bool triangles_;
-    std::span<const Turn> turns_; ///< empty: all now
+    std::span<const Turn> turns_; ///< empty: all vertices are Turn::now
     Found& found_;
     bool crowded_ = false;
     std::vector<Side> sides_, ends_;

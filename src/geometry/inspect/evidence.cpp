@@ -1,4 +1,5 @@
-// Evidence against a property: its locations, the chains of a boundary, or the contributions of the parts.
+// Finds evidence against a property: its locations, the chains of a boundary, or the contributions of the
+// parts.
 #include "geometry/inspect/evidence.hpp"
 
 #include "geometry/inspect/measures.hpp"
@@ -11,8 +12,8 @@ namespace facetmill {
 
 namespace {
 
-/// The mesh alone in world space, as inspect looks at it. A mirrored part's faces are not turned round, so
-/// that both see the same corner first.
+/// Only the mesh, in world space, like inspect. A mirrored part's faces are not reversed, so that both start
+/// at the same corner.
 Mesh placed(const Part& part) {
     Mesh mesh = bare(part.mesh);
     for (Vec3& p : mesh.positions) p = in_world(part, p);
@@ -40,7 +41,7 @@ bool is_out(const Box& box, const Box& within, bool high) {
     return false;
 }
 
-/// The value of the property for each part, sorted by influence on the value of the whole.
+/// The value of the property for each part, sorted by influence on the total value.
 std::vector<Evidence> amounts_of_parts(const Scene& scene, const EvidenceQuery& query) {
     const Property& property = query.property;
     if (property.truth()) return {};
@@ -69,7 +70,7 @@ std::vector<BoundaryChain> boundary_chains(const Mesh& mesh) {
             boundary.push_back(e);
             sets.join(edges.edges[e].low, edges.edges[e].high);
         }
-    std::vector<Index> number(mesh.vertex_count(), none); // of the chain, by the root of its set
+    std::vector<Index> number(mesh.vertex_count(), none); // number of the chain, by the root of its set
     std::vector<BoundaryChain> chains;
     const PowerScale scale = even_scale(mesh.bounds());
     for (const Index e : boundary) { // ascending by lower vertex
@@ -139,7 +140,8 @@ std::vector<Evidence> by_boundary(const Scene& scene, const EvidenceQuery& query
                              .loop = i,
                              .chain = chains[i]});
     }
-    return found.empty() ? by_locations(scene, query) : found; // there may be none for edges of three faces
+    return found.empty() ? by_locations(scene, query)
+                         : found; // no chain may exist for edges with three faces
 }
 
 std::vector<Evidence> by_box_corners(const Scene& scene, const EvidenceQuery& query) {

@@ -1,4 +1,4 @@
-// The pairs of faces that lie on each other: neighbours, faces in one plane, faces on the texture.
+// Finds pairs of faces that cover each other: neighbours, coplanar faces, and faces in the texture.
 #include "base/math/predicates.hpp"
 #include "base/sort_unique.hpp"
 #include "geometry/edit/around_edge.hpp"
@@ -15,7 +15,7 @@ namespace facetmill::inspect_room {
 namespace {
 
 struct Flat {
-    std::array<Vec3, 3> p; ///< z is 0; anticlockwise
+    std::array<Vec3, 3> p; ///< anticlockwise, with z 0
     Index face;
 };
 

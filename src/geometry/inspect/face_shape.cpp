@@ -1,8 +1,6 @@
-// The properties that each face has: angles, edges, aspect ratio, planarity, and the wall under it.
+// The properties that each face has: angles, edges, aspect ratio and planarity.
 #include "base/math/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
-#include "geometry/spatial/rays_walk.hpp"
-#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
 #include "mesh/power_scale.hpp"
@@ -87,15 +85,6 @@ std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 
-/// The distance along d, of length 1, from p to a triangle that the ray meets. The result is limited to the
-/// corners' distances, because rounding may cancel the angle of a grazing ray.
-double meets_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 n = cross(b - a, c - a);
-    const auto [least, most] = std::minmax({dot(a - p, d), dot(b - p, d), dot(c - p, d)});
-    const double facing = dot(n, d);
-    return facing > 0 ? std::clamp(dot(n, a - p) / facing, least, most) : least;
-}
-
 } // namespace
 
 std::vector<double> smallest_angles(const Mesh& mesh) { return least_of_corners(mesh, corner_angle); }
@@ -109,33 +98,6 @@ std::vector<double> aspect_ratios(const Mesh& mesh) {
 
 std::vector<double> nonplanarities(const Mesh& mesh) {
     return of_each_face(mesh, [&](Index f) { return nonplanarity(mesh, f); });
-}
-
-std::vector<double> wall_thicknesses(const Mesh& mesh) {
-    const FaceTree tree(filled_surface(mesh), FaceTree::Use::rays);
-    std::vector<double> ways(mesh.face_count(), HUGE_VAL);
-    parallel_for(
-        ways.size(),
-        [&](std::size_t f) {
-            const auto face = static_cast<Index>(f);
-            const Vec3 d = -normalised(area_vector(mesh, face)), p = corner_mean(mesh, face);
-            if (!(dot(d, d) > 0) || !is_finite(p)) return;
-            const Line line{p, p + d, true};
-            // Exact, so that a ray does not slip through between two faces at an edge.
-            const rays::LineSigns signs(line.from, line.to);
-            rays::LineWalk walk(tree, line);
-            while (walk.step([&](Index t) {
-                if (tree.face(t) == face) return ways[f];
-                const auto [a, b, c] = tree.triangle(t);
-                if (signs.passes(a, b, c) != 1) return ways[f]; // it does not leave through the front
-                const double at = meets_at(p, d, a, b, c);
-                if (at >= 0) ways[f] = std::min(ways[f], at);
-                return ways[f];
-            })) {
-            }
-        },
-        256);
-    return ways;
 }
 
 std::optional<double> value_of(const Property& property, const Measured& mesh) {

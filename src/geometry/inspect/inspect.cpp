@@ -23,10 +23,10 @@ using inspect_room::vertices_without_lines;
 
 namespace {
 
-/// Sums over faces, by chunks in order.
+/// Sums over faces. Chunks are added in order.
 struct FaceSums {
     std::int64_t triangles = 0, degenerate = 0, repeating = 0;
-    double area = 0, volume = 0; ///< volume: six times
+    double area = 0, volume = 0; ///< six times the volume
     void add(const FaceSums& b) {
         triangles += b.triangles;
         degenerate += b.degenerate;
@@ -44,7 +44,7 @@ bool repeats_a_vertex(const Mesh& mesh, Index f) {
     return false;
 }
 
-/// Adds the triangle p, a, b of a polygon to its area vector and to the volume, seen from origin.
+/// Adds the triangle p, a, b of a polygon to its area vector and to the volume relative to origin.
 void add_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& origin, Vec3& area,
                   double& volume) {
     const Vec3 product = cross(a - p, b - p);
@@ -87,7 +87,7 @@ FaceSums face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const V
         });
 }
 
-/// The same for boxes of any size, area and volume rounded once more.
+/// The sums for boxes of any size. Area and volume are rounded once more.
 FaceSums far_face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const Box& box) {
     const PowerScale even = even_scale(box), axes = axis_scale(box);
     const auto sums_of = [&](const PowerScale& scale) {
@@ -110,8 +110,8 @@ void inspect_as_it_is(Properties& p, const Mesh& mesh, std::int64_t repeating,
     p.boundary_loops = connectivity.boundary_loops;
     p.isolated_vertices = mesh.lines.empty() ? connectivity.isolated_vertices
                                              : static_cast<std::int64_t>(vertices_without_lines(mesh).size());
-    // Triangles of three different vertices are compared where they meet; all else by the hash of its
-    // vertices.
+    // Triangles with three different vertices are compared at common vertices; other faces by the hash of
+    // their vertices.
     p.duplicate_faces = mesh.all_triangles() && repeating == 0
                             ? connectivity.duplicate_triangles
                             : static_cast<std::int64_t>(duplicate_faces(mesh).size());
@@ -126,8 +126,8 @@ void inspect_as_it_is(Properties& p, const Mesh& mesh, std::int64_t repeating,
     }
 }
 
-/// positions: the mesh's, or transformed; a mirroring transform turns the faces round, as in glTF. alike: the
-/// properties of an equal mesh with any transform, or null.
+/// positions: the mesh's positions, or transformed. A mirroring transform reverses the faces, as in glTF.
+/// alike: the properties of an equal mesh with any transform, or null.
 Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, bool mirrored,
                           const InspectSettings& settings, const Properties* alike) {
     Properties p;
@@ -221,7 +221,7 @@ class Joiner {
             a += *value;
         else if (property.join == Join::most)
             a = std::max(a, *value);
-        else // a truth holds when all do: the least of 0 and 1
+        else // a truth holds for all parts or not: the minimum of 0 and 1
             a = std::min(a, *value);
     }
 
@@ -305,7 +305,7 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     for (const Part& part : scene.parts) lengths.push_back(1 + static_cast<double>(part.mesh.face_count()));
     ProgressSteps steps(std::move(lengths));
     const DistinctParts meshes(scene);
-    std::map<std::size_t, Properties> known; // of meshes that come again
+    std::map<std::size_t, Properties> known; // properties of repeated meshes
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const auto alike = known.find(meshes.first[i]);
         const Properties own =

@@ -1,4 +1,4 @@
-// The places where the properties of connectivity, faces and pairs fail, and what a place is known by.
+// Finds the locations where properties of connectivity, faces and pairs fail, and the keys of locations.
 #include "base/math/predicates.hpp"
 #include "base/math/random.hpp"
 #include "base/sort_unique.hpp"
@@ -30,12 +30,13 @@ bool is_lower(const Vec3& a, const Vec3& b) {
     return false;
 }
 
-/// The ends in any order, because addition is commutative; the last hash distinguishes ends with equal sums.
+/// A key independent of the order of the ends, because addition is commutative. The last hash distinguishes
+/// ends with equal sums.
 std::uint64_t key_of_edge(const Vec3& a, const Vec3& b) {
     return hashed(2, inspect_room::key_of_point(a) + inspect_room::key_of_point(b));
 }
 
-/// The set of the face's corners, whatever their order and direction.
+/// A key of the set of the face's corners, independent of their order and direction.
 std::uint64_t key_of_face(const Mesh& mesh, Index f) {
     std::uint64_t sum = 0;
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
@@ -47,7 +48,7 @@ std::uint64_t key_of_pair(const Mesh& mesh, Index f, Index g) {
     return hashed(4, key_of_face(mesh, f) + key_of_face(mesh, g));
 }
 
-/// Directions of the faces along an edge: how many run from low to high and how many back.
+/// The number of faces that run along an edge from low to high, and the number that run back.
 std::array<int, 2> directions(const Mesh& mesh, const EdgeTable& edges, Index e) {
     std::array<int, 2> ways{};
     for (const Index c : edges.corners_of(e)) ++ways[mesh.vertex(c) == edges.edges[e].low ? 0 : 1];
@@ -93,7 +94,7 @@ struct HashedFace {
     Index face;
 };
 
-/// All faces by a hash of their sets of vertices, equal hashes together and by face.
+/// All faces, sorted by the hash of their vertex sets, then by face.
 std::vector<HashedFace> hashed_faces(const Mesh& mesh) {
     std::vector<HashedFace> faces(mesh.face_count());
     parallel_chunks(faces.size(), [&](std::size_t begin, std::size_t end) {
@@ -105,7 +106,7 @@ std::vector<HashedFace> hashed_faces(const Mesh& mesh) {
             faces[f] = {h, static_cast<Index>(f)};
         }
     });
-    constexpr std::size_t few = 2048; // a radix sort of fewer counts more buckets than faces
+    constexpr std::size_t few = 2048; // a radix sort of fewer faces would count more buckets than faces
     if (faces.size() <= few)
         std::sort(faces.begin(), faces.end(), [](const HashedFace& a, const HashedFace& b) {
             return a.hash != b.hash ? a.hash < b.hash : a.face < b.face;
@@ -115,7 +116,7 @@ std::vector<HashedFace> hashed_faces(const Mesh& mesh) {
     return faces;
 }
 
-/// Whether two faces have the same set of vertices: for faces whose hashes agree.
+/// Whether two faces with equal hashes have the same set of vertices.
 bool same_set(const Mesh& mesh, Index a, Index b) {
     std::vector<Index> set_a, set_b;
     vertex_set(mesh, a, set_a);
@@ -123,7 +124,7 @@ bool same_set(const Mesh& mesh, Index a, Index b) {
     return set_a == set_b;
 }
 
-/// True when the cross product of u and w is sure not to vanish, by the filter of orientation_2d.
+/// True if the cross product of u and w is certainly nonzero, by the filter of orientation_2d.
 bool surely_not_parallel(const Vec3& u, const Vec3& w) {
     const auto sure = [](double left, double right) {
         const double det = std::abs(left - right);
@@ -140,7 +141,7 @@ bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 bool is_degenerate(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    // With the first corner and the first that differs from it, every other corner must be on one line.
+    // Every other corner must be on the line through the first corner and the first different corner.
     const Vec3& p = mesh.point(begin);
     Index other = begin + 1;
     while (other < end && mesh.point(other) == p) ++other;
@@ -172,7 +173,8 @@ std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges) {
     const auto faces = corner_faces(mesh);
     std::vector<Index> fans(mesh.vertex_count());
     parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
-        std::vector<std::pair<Index, Index>> ends; // (edge, place of the corner in the vertex's list)
+        std::vector<std::pair<Index, Index>>
+            ends; // pairs of edge and position of the corner in the vertex's list
         std::vector<Index> parent;
         const auto root = [&](Index i) {
             while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -209,7 +211,7 @@ std::vector<Index> duplicate_faces(const Mesh& mesh) {
     for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
         while (end < faces.size() && faces[end].hash == faces[begin].hash) ++end;
         for (std::size_t i = begin + 1; i < end;
-             ++i) // by chance a hash may be shared by different sets: all are compared
+             ++i) // different sets may have equal hashes by chance, so all faces are compared
             for (std::size_t j = begin; j < i; ++j)
                 if (same_set(mesh, faces[i].face, faces[j].face)) {
                     duplicates.push_back(faces[i].face);

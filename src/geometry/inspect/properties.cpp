@@ -1,4 +1,4 @@
-// The table of properties. To add one: a row here (with its function, here or among
+// The table of properties. To add a property, add a row here (with its function, here or in
 // geometry/inspect/measures.hpp), and a row in tests/stages/validate_table_test.cpp.
 #include "geometry/inspect/measures.hpp"
 
@@ -15,7 +15,7 @@ using Kind = PropertyKind;
 
 std::optional<double> count_of(const Pairs& pairs) { return static_cast<double>(pairs.size()); }
 
-/// A cavity's front looks into it, which it does not show by itself.
+/// The front of a cavity faces into the cavity, but its mesh does not show that it is a cavity.
 std::optional<double> is_outward_oriented(const Measured& m) {
     if (m.settings.part_of_solid && m.properties.volume.value_or(0) < 0) return 1;
     return inward_faces(m.local).empty() ? 1 : 0;
@@ -47,17 +47,18 @@ std::vector<std::string_view> up_words() {
     return {to_string(UpAxis::unknown), to_string(UpAxis::y), to_string(UpAxis::z)};
 }
 
-constexpr const char* fewer_or_more = "simplify reduces their number, split increases it";
-constexpr const char* fills_holes = "clean: {weld: near, tolerance: 0.0001%} joins corners that differ by "
-                                    "rounding, clean: {holes: minimal} fills "
-                                    "holes, orient makes faces consistent";
-constexpr const char* non_manifold_hint = "clean separates them (non_manifold)";
-constexpr const char* clean_removes = "clean removes them";
-constexpr const char* untangles = "clean: {self_intersections: all} unites or replaces intersecting faces";
-constexpr const char* cuts_to_size = "transform moves and scales, clip and crop cut off";
-constexpr const char* no_stage = "no stage changes it: correct it where the mesh was made";
+constexpr const char* fewer_or_more = "use simplify to reduce their number, or split to increase it";
+constexpr const char* fills_holes =
+    "use clean: {weld: near, tolerance: 0.0001%} to join corners that differ by rounding, clean: {holes: "
+    "minimal} to fill holes, or orient to make faces consistent";
+constexpr const char* non_manifold_hint = "use clean to separate them (non_manifold)";
+constexpr const char* clean_removes = "use clean to remove them";
+constexpr const char* untangles =
+    "use clean: {self_intersections: all} to unite or replace intersecting faces";
+constexpr const char* cuts_to_size = "use transform to move and scale, or clip and crop to cut";
+constexpr const char* no_stage = "no stage changes this, so correct it in the program that made the mesh";
 
-// Constant, so that stages can be declared from it before main.
+// Constant, so that stages can be declared from the table before main.
 constexpr Property table[] = {
     {.name = "vertices",
      .also_called = "points verts vertex_count num_vertices target_vertices",
@@ -66,12 +67,12 @@ constexpr Property table[] = {
      .member = &P::vertices,
      .is_size = true},
     {.name = "wedges",
-     .help = "Sets of attribute values at vertices, which glTF calls vertices.",
+     .help = "Sets of attribute values at vertices. glTF calls them vertices.",
      .hint = fewer_or_more,
      .member = &P::wedges,
      .is_size = true},
     {.name = "edges",
-     .help = "Pairs of vertices that some face runs along.",
+     .help = "Pairs of vertices joined by the side of a face.",
      .hint = fewer_or_more,
      .member = &P::edges,
      .is_size = true},
@@ -84,33 +85,35 @@ constexpr Property table[] = {
      .is_size = true},
     {.name = "triangles",
      .help = "Faces with three corners.",
-     .hint = "triangulate cuts polygons into triangles, simplify reduces their number",
+     .hint = "use triangulate to cut polygons into triangles, or simplify to reduce their number",
      .member = &P::triangles,
      .is_size = true},
     {.name = "lines",
      .help = "Straight lines between two vertices, in parts without faces.",
-     .hint = "load: {lines: 1%} makes tubes of them",
+     .hint = "use load: {lines: 1%} to turn them into tubes",
      .member = &P::lines,
      .is_size = true,
      .where_any = true},
     {.name = "components",
      .also_called = "shells bodies islands body_count connected_components",
      .help = "Sets of faces connected through vertices.",
-     .hint = "clean: {components: {keep: 1}} keeps only the largest, separate makes them parts",
+     .hint =
+         "use clean: {components: {keep: 1}} to keep only the largest, or separate to turn them into parts",
      .member = &P::components,
      .locations = components},
     {.name = "euler",
      .also_called = "euler_number euler_characteristic",
-     .help = "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 with one component.",
-     .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
+     .help =
+         "V - E + F, without isolated vertices. It is 2 for a closed surface of genus 0 with one component.",
+     .hint = "use clean: {holes: minimal} to fill holes; simplify: {topology: allow} may close handles",
      .member = &P::euler,
-     .locations = non_manifold_locations, // neither open nor a handle
+     .locations = non_manifold_locations, // these are neither openings nor handles
      .evidence = by_boundary,
      .lowest = -HUGE_VAL},
     {.name = "genus",
      .join = Join::sum_if_all,
-     .help = "The number of handles, summed over components; applies only to closed, oriented manifolds.",
-     .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
+     .help = "The number of handles, added up over components. Applies only to closed, oriented manifolds.",
+     .hint = "use clean: {holes: minimal} to fill holes; simplify: {topology: allow} may close handles",
      .member = &P::genus,
      .locations = uncancelled_edges,
      .evidence = by_boundary},
@@ -124,7 +127,7 @@ constexpr Property table[] = {
      .evidence = by_boundary},
     {.name = "boundary_edges",
      .also_called = "open_edges border_edges naked_edges",
-     .help = "Edges with a face on one side only.",
+     .help = "Edges with a face on only one side.",
      .hint = fills_holes,
      .mend = "clean --holes minimal ! orient",
      .member = &P::boundary_edges,
@@ -134,7 +137,7 @@ constexpr Property table[] = {
      .also_called = "watertight is_watertight water_tight airtight solid is_closed",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "At every edge the directions of its faces cancel.",
+     .help = "At every edge, the directions of its faces cancel, so the surface has no boundary.",
      .hint = fills_holes,
      .mend = "clean --holes minimal ! orient",
      .member = &P::closed,
@@ -147,7 +150,7 @@ constexpr Property table[] = {
      .opposite = "non_manifold nonmanifold non_manifold_edges",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "At most two faces at every edge.",
+     .help = "At most two faces meet at every edge.",
      .hint = non_manifold_hint,
      .mend = "clean",
      .member = &P::edge_manifold,
@@ -172,7 +175,7 @@ constexpr Property table[] = {
      .kind = Kind::truth,
      .join = Join::all,
      .help = "Neighbouring faces are oriented consistently.",
-     .hint = "orient makes them consistent",
+     .hint = "use orient to make them consistent",
      .mend = "orient",
      .member = &P::oriented,
      .soundness = Soundness::surface,
@@ -204,7 +207,7 @@ constexpr Property table[] = {
     {.name = "self_intersections",
      .also_called = "self_intersecting self_intersection intersections overlapping_faces",
      .join = Join::sum_if_all,
-     .help = "Pairs of faces that intersect, decided exactly; this takes time.",
+     .help = "Pairs of faces that intersect. The test is exact and takes time.",
      .hint = untangles,
      .mend = "clean --self_intersections all",
      .member = &P::self_intersections,
@@ -212,24 +215,23 @@ constexpr Property table[] = {
      .locations = intersecting_pairs},
     {.name = "touching",
      .join = Join::sum_if_all,
-     .help = "Pairs of faces that touch at edges or corners that they do not share, without intersecting "
-             "there, decided exactly; this takes as much time.",
+     .help = "Pairs of faces that touch at edges or corners they do not share, without intersecting. The "
+             "test is exact and takes time.",
      .hint = no_stage,
      .member = &P::touching,
      .costly = true,
      .locations = touching_pairs},
     {.name = "area",
      .kind = Kind::area,
-     .help =
-         "Surface area. A face that is not planar counts as it is seen along its normal; triangulate makes "
-         "more of it.",
+     .help = "The surface area. Non-planar faces count as their projection along their normal; triangulated "
+             "faces have a larger area.",
      .hint = cuts_to_size,
      .member = &P::area},
     {.name = "volume",
      .kind = Kind::volume,
      .join = Join::sum_if_all,
-     .help = "Enclosed volume, negative when inside out; does not apply to open surfaces.",
-     .hint = "clean: {holes: minimal} closes open surfaces, orient turns them outward",
+     .help = "The enclosed volume. Negative if the surface is inside out. Does not apply to open surfaces.",
+     .hint = "use clean: {holes: minimal} to close open surfaces, or orient to turn them outward",
      .mend = "clean --holes minimal ! orient",
      .member = &P::volume,
      .locations = uncancelled_edges,
@@ -239,8 +241,8 @@ constexpr Property table[] = {
      .also_called = "bbox bounding_box aabb extents",
      .kind = Kind::box,
      .join = Join::around,
-     .help = "The bounding box: its lowest corner is at least {min: [x, y, z]}, its highest at most {max: "
-             "[x, y, z]}.",
+     .help = "The bounding box. Its lowest corner is at least {min: [x, y, z]}, its highest corner at most "
+             "{max: [x, y, z]}.",
      .hint = cuts_to_size,
      .member = &P::bounds,
      .evidence = by_box_corners},
@@ -249,7 +251,7 @@ constexpr Property table[] = {
      .kind = Kind::word,
      .join = Join::of_scene,
      .help = "The unit of positions.",
-     .hint = "load: {unit: mm} sets it, transform: {unit: mm} converts it",
+     .hint = "use load: {unit: mm} to set it, or transform: {unit: mm} to convert it",
      .member = &P::unit,
      .evidence = no_evidence,
      .words = unit_words},
@@ -257,8 +259,8 @@ constexpr Property table[] = {
      .also_called = "up_axis upaxis y_up z_up",
      .kind = Kind::word,
      .join = Join::of_scene,
-     .help = "The axis that points up.",
-     .hint = "load: {up: z} sets it, transform: {up: z} rotates the scene",
+     .help = "The up axis.",
+     .hint = "use load: {up: z} to set it, or transform: {up: z} to rotate the scene",
      .member = &P::up,
      .evidence = no_evidence,
      .words = up_words},
@@ -271,7 +273,7 @@ constexpr Property table[] = {
     {.name = "parts",
      .join = Join::of_scene,
      .help = "The number of parts.",
-     .hint = "merge joins them, separate makes more",
+     .hint = "use merge to join them, or separate to make more",
      .member = &P::parts,
      .evidence = by_part_names},
 
@@ -280,7 +282,7 @@ constexpr Property table[] = {
      .kind = Kind::angle,
      .join = Join::least,
      .help = "The smallest angle of a face.",
-     .hint = "relax makes faces more regular",
+     .hint = "use relax to make faces more regular",
      .mend = "relax 3",
      .of_faces = smallest_angles,
      .counts_locations = true,
@@ -289,7 +291,7 @@ constexpr Property table[] = {
      .kind = Kind::angle,
      .join = Join::most,
      .help = "The largest angle of a face.",
-     .hint = "relax makes faces more regular",
+     .hint = "use relax to make faces more regular",
      .mend = "relax 3",
      .of_faces = largest_angles,
      .counts_locations = true,
@@ -297,8 +299,8 @@ constexpr Property table[] = {
     {.name = "aspect_ratio",
      .kind = Kind::number,
      .join = Join::most,
-     .help = "The largest ratio of longest edge to inradius, normalised to 1 for equal sides.",
-     .hint = "relax makes faces more regular",
+     .help = "The largest aspect ratio: the longest edge over the inradius, scaled to 1 for equal sides.",
+     .hint = "use relax to make faces more regular",
      .mend = "relax 3",
      .of_faces = aspect_ratios,
      .counts_locations = true,
@@ -314,7 +316,7 @@ constexpr Property table[] = {
      .kind = Kind::length,
      .join = Join::most,
      .help = "The length of the longest edge.",
-     .hint = "split: {method: bisect, max_edge: 1%} splits long edges",
+     .hint = "use split: {method: bisect, max_edge: 1%} to split long edges",
      .mend = "split --method bisect --max_edge 1%",
      .of_faces = longest_edges,
      .counts_locations = true},
@@ -322,12 +324,12 @@ constexpr Property table[] = {
      .kind = Kind::length,
      .join = Join::most,
      .help = "The largest distance of a corner from the mean plane of its polygon.",
-     .hint = "triangulate makes faces planar",
+     .hint = "use triangulate to make faces planar",
      .mend = "triangulate",
      .of_faces = nonplanarities,
      .counts_locations = true},
     {.name = "folded_faces",
-     .help = "Pairs of neighbouring faces folded flat onto each other, decided exactly.",
+     .help = "Pairs of neighbouring faces folded flat onto each other. The test is exact.",
      .hint = untangles,
      .mend = "clean --self_intersections all",
      .measure = [](const Measured& m) { return count_of(folded_faces(m.world)); },
@@ -335,7 +337,7 @@ constexpr Property table[] = {
                      const LocationQuery& q) { return locations_of_pairs(m, folded_faces(m), q.limit); }},
     {.name = "t_junctions",
      .help = "Vertices exactly on a boundary edge of another face.",
-     .hint = "clean inserts them into the edge (t_junctions)",
+     .hint = "use clean to insert them into the edge (t_junctions)",
      .mend = "clean",
      .measure = count_t_junctions,
      .locations = t_junctions},
@@ -361,14 +363,15 @@ constexpr Property table[] = {
      .opposite = "inside_out inverted",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "Every component has its front outside (a cavity: towards the hollow), as orient would turn it.",
-     .hint = "orient turns the front outward",
+     .help = "The front of every component faces outward, or towards the hollow for a cavity, as orient "
+             "would turn it.",
+     .hint = "use orient to turn the front outward",
      .mend = "orient",
      .measure = is_outward_oriented,
      .locations = inward_components,
      .counts_locations = true},
     {.name = "coplanar_overlaps",
-     .help = "Pairs of coplanar faces that overlap, decided exactly.",
+     .help = "Pairs of coplanar faces that overlap. The test is exact.",
      .hint = untangles,
      .mend = "clean --self_intersections all",
      .measure = [](const Measured& m) { return count_of(coplanar_overlaps(m.world)); },
@@ -380,21 +383,23 @@ constexpr Property table[] = {
      .also_called = "thickness min_thickness minimum_thickness",
      .kind = Kind::length,
      .join = Join::least,
-     .help = "The smallest distance through the solid, measured from the centroids of faces along the inward "
-             "normal.",
-     .hint = "no stage thickens the walls of a solid; transform can scale all of it",
+     .help = "The smallest distance through the solid, along the inward normals of faces: from all their "
+             "points to surfaces that face them (within 45 degrees) and to the bottoms of grooves and pits, "
+             "and from their centroids to any surface. It is 0 at edges and tips sharper than 45 degrees; "
+             "blunter edges are corners.",
+     .hint = "no stage thickens the walls of a solid, but transform can scale all of it",
      .of_faces = wall_thicknesses,
      .counts_locations = true},
     {.name = "uvs_in_range",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "All texture coordinates lie within 0 and 1.",
+     .help = "All texture coordinates are between 0 and 1.",
      .hint = no_stage,
      .measure = has_uvs_in_range,
      .locations = uvs_out_of_range,
      .counts_locations = true},
     {.name = "uv_overlaps",
-     .help = "Pairs of faces that overlap in the first set of texture coordinates, decided exactly.",
+     .help = "Pairs of faces that overlap in the first set of texture coordinates. The test is exact.",
      .hint = no_stage,
      .measure =
          [](const Measured& m) {
@@ -408,31 +413,31 @@ constexpr Property table[] = {
     {.name = "finite_attributes",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "All attribute values are finite numbers.",
-     .hint = "measure: {missing: 0} makes what it measures a number everywhere, optimize: {drop_own: true} "
-             "drops attributes that glTF does not know; write gives glTF 0 there (W-NAN)",
+     .help = "use triangulate to make faces planar",
+     .hint = "use measure: {missing: 0} to replace missing values, or optimize: {drop_own: true} to remove "
+             "attributes unknown to glTF; write stores 0 instead of nan in glTF (W-NAN)",
      .measure = has_finite_attributes,
      .locations = numbers_not_finite,
      .counts_locations = true},
     {.name = "unit_normals",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "All normals and tangents have length 1, to 1/127.",
-     .hint = "write: {normals: smooth} computes new ones",
+     .help = "All normals and tangents have length 1, within 1/127.",
+     .hint = "clean: {unit_vectors: true} scales them to length 1",
      .measure = has_unit_normals,
      .locations = normals_not_unit,
      .counts_locations = true},
     {.name = "weights_normalized",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "The joint weights of every wedge sum to 1, to 1/255.",
-     .hint = no_stage,
+     .help = "The joint weights of every wedge sum to 1, within 1/255.",
+     .hint = "clean: {unit_vectors: true} scales them to the sum 1",
      .measure = has_normalized_weights,
      .locations = weights_not_normalized,
      .counts_locations = true},
     {.name = "joint_count",
      .join = Join::most,
-     .help = "The number of joints that the weights refer to: the highest index plus one.",
+     .help = "The number of joints that weights refer to: the highest index plus one.",
      .hint = no_stage,
      .measure = joint_count,
      .locations = too_high_joints,
@@ -454,7 +459,7 @@ std::vector<Synonyms> synonyms_of(const Property& property) {
     std::vector<Synonyms> all{{std::string(property.also_called), {}}};
     if (!property.opposite.empty())
         all.push_back({std::string(property.opposite),
-                       fmt::format("({}: true), which says the opposite", property.name)});
+                       fmt::format("({}: true), which means the opposite", property.name)});
     return all;
 }
 

@@ -11,7 +11,7 @@ namespace facetmill {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
-using Sides = std::array<int, 3>; ///< of corners, by a plane
+using Sides = std::array<int, 3>; ///< sides of three corners relative to a plane
 
 Sides sides_of(const Corners& t, const Corners& of_plane) {
     return {orientation_3d(of_plane[0], of_plane[1], of_plane[2], t[0]),
@@ -23,20 +23,21 @@ bool straddles(const Sides& s) {
     return *std::min_element(s.begin(), s.end()) < 0 && *std::max_element(s.begin(), s.end()) > 0;
 }
 
-/// The sign of the area of a, b, c seen along the axis.
+/// The sign of the area of a, b, c projected along the axis.
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, std::size_t axis) {
     const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
     return orientation_2d(a[x], a[y], b[x], b[y], c[x], c[y]);
 }
 
-/// An axis along which three points not on one line are seen so; 3 when they are on one.
+/// An axis along which the projected points are not collinear; 3 if the points are collinear.
 std::size_t view_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     std::size_t axis = 0;
     while (axis < 3 && turn(a, b, c, axis) == 0) ++axis;
     return axis;
 }
 
-/// Whether an edge of s, with its corners on those sides of t's plane, goes through the inside of t.
+/// Whether an edge of s passes through the inside of t. sides: the sides of s's corners relative to t's
+/// plane.
 bool pierces(const Corners& s, const Sides& sides, const Corners& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
@@ -49,7 +50,7 @@ bool pierces(const Corners& s, const Sides& sides, const Corners& t) {
     return false;
 }
 
-/// Whether a corner of s that lies in t's plane lies inside t.
+/// Whether a corner of s in t's plane is inside t.
 bool corner_inside(const Corners& s, const Sides& sides, const Corners& t) {
     const std::size_t view = view_of(t[0], t[1], t[2]);
     const int way = turn(t[0], t[1], t[2], view);
@@ -60,7 +61,7 @@ bool corner_inside(const Corners& s, const Sides& sides, const Corners& t) {
     return false;
 }
 
-/// For triangles in one plane: whether a line along an edge of s has all of t on its other side or on it.
+/// For triangles in the same plane: whether an edge of s separates t from s. t may touch its line.
 bool edge_parts(const Corners& s, const Corners& t) {
     const std::size_t view = view_of(s[0], s[1], s[2]);
     const int way = turn(s[0], s[1], s[2], view);
@@ -77,7 +78,7 @@ bool on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return collinear(a, b, p);
 }
 
-/// Whether two segments cross inside both.
+/// Whether two segments cross in the interior of both.
 bool cross_inside(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (orientation_3d(a, b, c, d) != 0) return false;
     const std::size_t view = view_of(a, b, c);
@@ -103,7 +104,7 @@ std::size_t common_points(const Corners& s, const Corners& t) {
     return corners.size() + crossings;
 }
 
-/// Whether two segments on one line have more than a point in common.
+/// Whether two collinear segments have more than a point in common.
 bool run_along(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (!collinear(a, b, c) || !collinear(a, b, d)) return false;
     for (std::size_t i = 0; i < 3; ++i)
@@ -113,8 +114,8 @@ bool run_along(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return false;
 }
 
-/// How far the half plane of q at the edge u v is turned from the half plane of p, in quarters. 0: not at
-/// all, 1 less than half a turn, 2 half a turn, 3 more.
+/// The angle from the half plane of p at the edge u v to the half plane of q. 0: none, 1: less than half a
+/// turn, 2: half a turn, 3: more.
 int quarter(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q) {
     const int side = orientation_3d(u, v, p, q);
     if (side != 0) return side > 0 ? 1 : 3;
@@ -122,8 +123,8 @@ int quarter(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q) {
     return turn(u, v, p, view) == turn(u, v, q, view) ? 0 : 2;
 }
 
-/// From p's half plane on, in the sense of rising quarters, where q comes against r: -1 before, 0 with, 1
-/// after.
+/// The order of q and r around the edge, starting at p's half plane: -1 if q comes before r, 0 if both
+/// coincide, 1 if q comes after r.
 int order_from(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q, const Vec3& r) {
     const int a = quarter(u, v, p, q), b = quarter(u, v, p, r);
     if (a != b) return a < b ? -1 : 1;
@@ -149,7 +150,8 @@ bool TouchTest::only_touch(Index s, Index t) const {
     }
     if (pierces(a, of_a, b) || pierces(b, of_b, a)) return false;
     if (corner_inside(a, of_a, b) || corner_inside(b, of_b, a)) return false;
-    // One that goes through the other's plane inside itself has only its ends on the border.
+    // If a triangle crosses the other's plane in its interior, only the ends of the intersection are on its
+    // border.
     if ((straddles(of_a) || straddles(of_b)) && common_points(a, b) > 1) return false;
     return !pass_through(s, t);
 }

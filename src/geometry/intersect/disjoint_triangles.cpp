@@ -1,7 +1,7 @@
-// Separating lines of the triangles seen along an axis, then separating planes. In the plane, the thresholds
-// of signs come from J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
-// predicates" (1997). In space, they come from the semi-static filter of A. Meyer and S. Pion, "FPG: a code
-// generator for fast and certified geometric predicates" (2008).
+// Tests separating lines of the triangles projected along an axis, then separating planes. In the plane, the
+// thresholds of signs come from J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast
+// robust geometric predicates" (1997). In space, they come from the semi-static filter of A. Meyer and S.
+// Pion, "FPG: a code generator for fast and certified geometric predicates" (2008).
 #include "geometry/intersect/disjoint_triangles.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace facetmill {
 
 namespace {
 
-/// Two triangles seen along an axis.
+/// Two triangles projected along an axis.
 struct View {
     double a[3][2], b[3][2];
 
@@ -27,7 +27,7 @@ struct View {
 
 using Point2 = double[2];
 
-/// On which side of the line from p to q the point r is; 0 when unsure.
+/// The side of the line from p to q that contains r; 0 if uncertain.
 int side(const Point2& p, const Point2& q, const Point2& r) {
     return sure_sign((q[0] - p[0]) * (r[1] - p[1]), (q[1] - p[1]) * (r[0] - p[0]));
 }
@@ -50,7 +50,7 @@ bool corners_disjoint(const View& view) {
     const auto& b = view.b;
     const int way_a = side(a[0], a[1], a[2]), way_b = side(a[0], b[1], b[2]);
     if (way_a == 0 || way_b == 0) return false;
-    int s[3][3]; // from side i of a to side j of b
+    int s[3][3]; // relation of side i of a to side j of b
     for (std::size_t i = 1; i < 3; ++i)
         for (std::size_t j = 1; j < 3; ++j)
             if ((s[i][j] = side(a[0], a[i], b[j])) == 0) return false;
@@ -59,7 +59,7 @@ bool corners_disjoint(const View& view) {
     return !b_in_a(1) && !b_in_a(2) && !a_in_b(1) && !a_in_b(2);
 }
 
-/// Whether the corners of t from the given one on are all strictly on one side of the plane of s.
+/// Whether the corners of t, from the given corner on, are all strictly on one side of the plane of s.
 bool beside_the_plane(const std::array<Vec3, 3>& s, const Vec3& normal, const std::array<Vec3, 3>& t,
                       std::size_t first) {
     const Vec3 u = s[1] - s[0], v = s[2] - s[0];
@@ -70,7 +70,7 @@ bool beside_the_plane(const std::array<Vec3, 3>& s, const Vec3& normal, const st
             return std::max({std::abs(u[k]), std::abs(v[k]), std::abs(w[k])});
         };
         const double x = most(0), y = most(1), z = most(2), size = x * y * z, det = dot(normal, w);
-        // 46 roundings of numbers up to `size`, neither overflown nor underflown.
+        // The bound covers 46 roundings of numbers up to `size`, without overflow and underflow.
         const bool sure =
             std::abs(det) > 5.2e-15 * size && size > 1e-270 && size < 1e270 && std::min({x, y, z}) > 1e-90;
         const int sign = !sure ? 0 : det > 0 ? 1 : -1;
@@ -90,7 +90,7 @@ std::size_t longest_axis(const Vec3& v) {
 bool surely_disjoint(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int shared) {
     const Vec3 normal = cross(a[1] - a[0], a[2] - a[0]);
     const View view(a, b, longest_axis(normal));
-    if (shared == 2) { // they meet elsewhere only when folded flat onto each other
+    if (shared == 2) { // they meet elsewhere only if folded flat onto each other
         const int way_a = side(view.a[0], view.a[1], view.a[2]),
                   way_b = side(view.a[0], view.a[1], view.b[2]);
         return way_a * way_b < 0 || beside_the_plane(a, normal, b, 2);

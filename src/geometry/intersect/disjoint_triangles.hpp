@@ -1,6 +1,6 @@
 #pragma once
-// A filter before the exact test of two triangles: nearly all neighbours on a surface are apart by signs that
-// floating point is sure of.
+// A filter before the exact test of two triangles. Certain floating-point signs prove that nearly all
+// neighbours on a surface are disjoint.
 
 #include "base/math/predicates.hpp"
 #include "base/math/vec.hpp"
@@ -10,7 +10,8 @@
 
 namespace facetmill {
 
-/// The sign of the product of two differences of given numbers less another; 0 when floating point is unsure.
+/// The sign of left - right, each a product of two differences of given numbers; 0 if floating point is
+/// uncertain.
 [[nodiscard]] inline int sure_sign(double left, double right) {
     const double det = left - right, size = std::abs(det);
     if (!(size > orientation_error * (std::abs(left) + std::abs(right)) && size > orientation_smallest))
@@ -18,8 +19,8 @@ namespace facetmill {
     return det > 0 ? 1 : -1;
 }
 
-/// True when two triangles with area are sure to have no point in common but their first `shared` corners
-/// (0, 1 or 2), which are the same points, and the edge between two of them. False says nothing.
+/// True if two triangles with area certainly have no common point except their first `shared` corners (0, 1
+/// or 2) and the edge between them. These corners must be the same points. False implies nothing.
 bool surely_disjoint(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int shared);
 
 } // namespace facetmill

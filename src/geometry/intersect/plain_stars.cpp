@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-/// The triangles around a vertex, each seen from it: the corner after it, and the one after that.
+/// The triangles around a vertex, each as the two corners that follow the vertex.
 class Sectors {
   public:
     void begin() { count_ = 0; }
@@ -28,8 +28,8 @@ class Sectors {
         ++count_;
     }
 
-    /// Looks along the axis that the first triangle faces most, which is nearly always as good as the axis of
-    /// all.
+    /// Projects along the axis that the first triangle faces most. This is nearly always as good as the axis
+    /// of all triangles.
     Star kind() const {
         if (count_ > most) return Star::unknown;
         const std::size_t quick = axis(1);
@@ -40,7 +40,7 @@ class Sectors {
     }
 
   private:
-    static constexpr std::size_t most = 24; ///< of more triangles nothing is said
+    static constexpr std::size_t most = 24; ///< stars with more triangles are not classified
 
     /// The axis that the first triangles face most, by the sum of their areas.
     std::size_t axis(std::size_t first) const {
@@ -51,8 +51,8 @@ class Sectors {
         return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
     }
 
-    /// The number of sectors, seen along the axis, that reach or pass a half-axis from before it. None unless
-    /// all certainly turn the same way.
+    /// The number of sectors, projected along the axis, that reach or pass a half-axis from before it. None
+    /// unless all sectors certainly turn in the same direction.
     std::optional<std::size_t> laps_along(std::size_t axis) const {
         const auto &au = a_[(axis + 1) % 3], &av = a_[(axis + 2) % 3];
         const auto &bu = b_[(axis + 1) % 3], &bv = b_[(axis + 2) % 3];
@@ -74,8 +74,8 @@ class Sectors {
     Star kind_of(std::size_t laps) const {
         if (laps > 1) return Star::unknown;
         const std::uint32_t all = (std::uint32_t{1} << count_) - 1;
-        std::uint32_t followed = 0; // sectors with one before them
-        std::size_t ends = 0;       // sectors with none after them
+        std::uint32_t followed = 0; // sectors with a sector before them
+        std::size_t ends = 0;       // sectors without a sector after them
         for (std::size_t i = 0; i < count_; ++i) {
             std::uint32_t next = 0;
             for (std::size_t at = 0; at < count_; at += 4)
@@ -88,7 +88,7 @@ class Sectors {
         if (ends == 0) return laps == 1 ? Star::ring : Star::unknown;
         return ends == 1 && laps == 0 && are_apart() ? Star::plain : Star::unknown;
     }
-    /// Whether none begin with the same vertex, nor end with it.
+    /// Whether no two sectors begin with the same vertex, and no two end with the same vertex.
     bool are_apart() const {
         for (std::size_t i = 0; i < count_; ++i)
             for (std::size_t j = 0; j < i; ++j)
@@ -117,7 +117,7 @@ std::vector<Star> plain_stars(std::span<const Vec3> positions, std::span<const I
             std::vector<Index> begin, order;
             Sectors around;
             for (std::size_t b = first; b < last; ++b) {
-                const auto here = buckets.of(b); // corners
+                const auto here = buckets.of(b); // corners at the vertex
                 const auto lowest = static_cast<Index>(buckets.first_vertex(b));
                 begin.assign((std::size_t{1} << buckets.shift) + 1, 0);
                 for (const Index c : here) ++begin[corners[c] - lowest];

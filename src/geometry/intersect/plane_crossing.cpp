@@ -1,5 +1,5 @@
-// Numbers of two doubles (T. J. Dekker, "A floating-point technique for extending the available precision",
-// 1971), with bounds of their error.
+// Computes with pairs of doubles (T. J. Dekker, "A floating-point technique for extending the available
+// precision", 1971), with bounds of their error.
 #include "geometry/intersect/plane_crossing.hpp"
 
 #include "base/math/predicates.hpp"
@@ -13,9 +13,9 @@ namespace facetmill {
 
 namespace {
 
-/// high + low, low at most half a unit in the last place of high. `difference` is exact. The result of each
-/// other operation below has an error of less than 2^-100 of its size; for a sum, of the summed sizes of its
-/// terms.
+/// A number high + low, where low is at most half a unit in the last place of high. `difference` is exact.
+/// The result of each other operation below has an error of less than 2^-100 of its size; for a sum, of the
+/// summed sizes of its terms.
 struct Twofold {
     double high = 0, low = 0;
 };
@@ -67,13 +67,13 @@ double largest(const Twofolds& v) {
 
 Twofold product_of(const Twofolds& a, const Twofolds& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Whether the error of x is so small that neither end is beyond the next double on either side.
+/// Whether x plus or minus the error stays within the next double on either side.
 bool is_near(const Twofold& x, double error) {
     const double size = std::abs(x.high);
     return size > 1e-100 && error < size * 0x1p-60;
 }
 
-/// Rounded towards zero, when all within the error of x is rounded to the same.
+/// x rounded towards zero, if all numbers within the error of x round to the same double.
 std::optional<double> towards_zero(const Twofold& x, double error) {
     if (!(is_near(x, error) && std::abs(x.low) > error)) return {};
     if ((x.low > 0) == (x.high > 0)) return x.high;
@@ -85,7 +85,7 @@ std::optional<double> towards_zero(const Twofold& x, double error) {
 /// its neighbours are possible.
 double towards_zero_at_level(const Vec3& p, const Vec3& q, std::size_t axis, std::size_t level, double z,
                              double x) {
-    // (q - p)[level] times the difference of the coordinate and x
+    // (q - p)[level] times the difference between the coordinate and x
     const int side =
         orientation_2d(p[axis], p[level], q[axis], q[level], x, z) * (q[level] > p[level] ? 1 : -1);
     if (side == 0 || (side > 0) == (x > 0)) return x;
@@ -98,16 +98,15 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     const auto& [a, b, c] = triangle;
     const Twofolds u = from_to(a, b), v = from_to(a, c), to_p = from_to(a, p), to_q = from_to(a, q);
     const double most_u = largest(u), most_v = largest(v), most_w = std::max(largest(to_p), largest(to_q));
-    for (const double most :
-         {most_u, most_v, most_w}) // no product overflows, nor underflows where it matters
+    for (const double most : {most_u, most_v, most_w}) // no product overflows, or underflows where it matters
         if (!(most > 1e-50 && most < 1e50)) return {};
     const Twofolds normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     const Twofold above = product_of(normal, to_p), below = product_of(normal, to_q);
-    // Each of the three of the normal is off by 6 * 2^-100 of the sizes, so the product is by 42 * 2^-100.
+    // Each component of the normal has an error of 6 * 2^-100 of the sizes, so the product has 42 * 2^-100.
     const double error = 0x1p-94 * most_u * most_v * most_w;
     if (!(std::abs(above.high) > 8 * error && std::abs(below.high) > 8 * error)) return {};
     if ((above.high > 0) == (below.high > 0)) return {};
-    // Both have the same sign in this difference: the quotient is between 0 and 1.
+    // Both terms of this difference have the same sign, so the quotient is between 0 and 1.
     const Twofold whole = above - below, part = above / whole;
     const double error_of_part = 4 * error / std::abs(whole.high) + 0x1p-98;
     std::optional<std::size_t> across; // the axis perpendicular to the plane
@@ -117,7 +116,7 @@ std::optional<Vec3> plane_crossing(const Vec3& p, const Vec3& q, const std::arra
     for (std::size_t k = 0; k < 3; ++k) {
         const bool level = is_level(a, b, c, k);
         if (p[k] == q[k] || level) {
-            place[k] = (level ? a[k] : p[k]) + 0.0; // of zero the positive one
+            place[k] = (level ? a[k] : p[k]) + 0.0; // makes zeros positive
             continue;
         }
         const Twofold way = difference(q[k], p[k]);
@@ -140,13 +139,13 @@ Twofolds cross_of(const Twofolds& u, const Twofolds& v) {
 
 } // namespace
 
-/// The formula is o + (d1 n2 x n0 + d2 n0 x n1) / (n0 . n1 x n2). n are the normals, o is a corner of the
-/// first, d are the products of normals with corners minus o.
+/// The formula is o + (d1 n2 x n0 + d2 n0 x n1) / (n0 . n1 x n2). n: the normals. o: a corner of the first
+/// triangle. d: the products of normals with corners minus o.
 std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& triangles) {
     const Vec3& origin = triangles[0][0];
     std::array<Twofolds, 3> normals;
     std::array<Twofold, 3> heights;
-    double size = 1, reach = 0; // of all normals together; of the corners from the origin
+    double size = 1, reach = 0; // size of all normals together; distance of the corners from o
     Vec3 place;
     std::array<bool, 3> is_level{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -154,11 +153,11 @@ std::optional<Vec3> planes_crossing(const std::array<std::array<Vec3, 3>, 3>& tr
         for (std::size_t k = 0; k < 3; ++k)
             if (a[k] == b[k] && b[k] == c[k]) {
                 is_level[k] = true;
-                place[k] = a[k] + 0.0; // of zero the positive one
+                place[k] = a[k] + 0.0; // makes zeros positive
             }
         const Twofolds u = from_to(a, b), v = from_to(a, c), away = from_to(origin, a);
         const double most_u = largest(u), most_v = largest(v), most = largest(away);
-        for (const double x : {most_u, most_v}) // no product overflows, nor underflows where it matters
+        for (const double x : {most_u, most_v}) // no product overflows, or underflows where it matters
             if (!(x > 1e-20 && x < 1e20)) return {};
         if (!(most < 1e20)) return {};
         size *= 2 * most_u * most_v;

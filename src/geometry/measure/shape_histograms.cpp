@@ -65,7 +65,7 @@ std::size_t power_bin(double x, int first_octave) {
     if (octave < 0) return 0;
     const std::uint64_t below_two = bits & ((std::uint64_t{1} << mantissa_bits) - 1);
     const double mantissa =
-        std::bit_cast<double>(below_two | std::uint64_t{bias} << mantissa_bits); // from 1 to 2
+        std::bit_cast<double>(below_two | std::uint64_t{bias} << mantissa_bits); // a number from 1 to 2
     const int quarter = (mantissa >= quarters[1]) + (mantissa >= quarters[2]) + (mantissa >= quarters[3]);
     return static_cast<std::size_t>(4 * octave + quarter);
 }

@@ -16,14 +16,14 @@ namespace {
 
 constexpr double bent = 0.99985;        // cosine of 1 degree: straighter edges give no evidence
 constexpr double near_face = 0.9986;    // cosine of 3 degrees: the precision of quantised normals
-constexpr double nearly_all = 0.95;     // of the edges or corners
+constexpr double nearly_all = 0.95;     // share of the edges or corners
 constexpr double same_facet = 0.999962; // cosine of half a degree
-// A vertex may have a million faces: no more than so many wedges are compared with each other.
+// The maximum number of wedges to compare at a vertex, which may have a million faces.
 constexpr std::size_t max_compared = 64;
 
 Vec3 normal_of(const Attribute& a, Index w) { return {a.value(w, 0), a.value(w, 1), a.value(w, 2)}; }
 
-/// Twice the area of every face along its normal.
+/// For each face, a vector along its normal whose length is twice the area.
 std::vector<Vec3> double_area_vectors(const Mesh& mesh) {
     std::vector<Vec3> areas(mesh.face_count());
     parallel_for(areas.size(), [&](std::size_t f) { areas[f] = area_vector(mesh, static_cast<Index>(f)); });
@@ -115,7 +115,8 @@ class Fan {
         : mesh_(mesh), areas_(areas), face_of_(face_of), normals_(normals), others_(others),
           least_cosine_(least_cosine) {}
 
-    /// Fills into[w] for the wedges at the corners and gives joined ones their normal. Returns how many went.
+    /// Fills into[w] for the wedges at the corners, and gives merged wedges their normal. Returns the number
+    /// of removed wedges.
     std::size_t merge(std::span<const Index> corners, bool faceted, std::vector<Index>& into,
                       Attribute& renewed) {
         wedges_.clear();
@@ -136,9 +137,9 @@ class Fan {
   private:
     struct Member {
         Index id;
-        std::size_t root; ///< lowest of those joined so far
+        std::size_t root; ///< the lowest of the wedges joined so far
         Vec3 area;
-        bool several; ///< normals among those joined
+        bool several; ///< whether the joined wedges have different normals
     };
     std::size_t place(Index wedge) const {
         return static_cast<std::size_t>(std::lower_bound(wedges_.begin(), wedges_.end(), wedge,
@@ -209,7 +210,8 @@ class Fan {
     std::vector<std::size_t> firsts_;
 };
 
-/// If every vertex has one wedge left: makes wedge v the wedge of vertex v, the form without seams.
+/// If every vertex has a single wedge left, converts the mesh to the form without seams, in which wedge v
+/// belongs to vertex v.
 void forget_wedges(Mesh& mesh) {
     if (mesh.wedge_count() != mesh.vertex_count()) return;
     std::vector<Index> wedge_of(mesh.vertex_count(), none);
@@ -224,8 +226,8 @@ void forget_wedges(Mesh& mesh) {
     mesh.wedge_vertex = {};
 }
 
-/// Merges wedges, all at a vertex that only normals part (faceted) or those across smooth edges. Returns how
-/// many went.
+/// Merges wedges: all wedges of a vertex that only normals separate (faceted), or wedges across smooth
+/// edges. Returns the number of removed wedges.
 std::size_t merge_wedges(Mesh& mesh, const std::vector<Vec3>& areas, const std::vector<Index>& face_of,
                          bool faceted, double least_cosine) {
     Attribute& normals = *mesh.find("NORMAL", Domain::wedge);
@@ -279,10 +281,10 @@ std::size_t forget_normals(Mesh& mesh) {
 
 namespace {
 
-/// A wedge to be: the old one and the faces of one direction at it.
+/// A new wedge: the old wedge, and its faces with the same direction.
 struct Facet {
     Index wedge;
-    Vec3 area; ///< of its first face, then the sum
+    Vec3 area; ///< area vector of the first face, then the sum
 };
 
 } // namespace

@@ -20,14 +20,14 @@ double angle_at(const Mesh& mesh, Index f, Index c) {
     return arc_tangent(length(cross(to, from)), dot(to, from));
 }
 
-/// Which corners of a vertex share a normal, and which of those a wedge.
+/// Finds the corners of a vertex that share a normal, and those that also share a wedge.
 class SmoothFan {
   public:
     SmoothFan(const Mesh& mesh, const std::vector<Index>& face_of, const std::vector<Vec3>& normals,
               double least_cosine)
         : mesh_(mesh), face_of_(face_of), normals_(normals), least_cosine_(least_cosine) {}
 
-    /// Numbers the wedges to be from 0 and says which of them each corner gets. Returns how many there are.
+    /// Numbers the new wedges from 0, and assigns a wedge to each corner. Returns the number of wedges.
     Index number(std::span<const Index> corners, std::vector<Index>& wedge_of_corner) {
         join(corners);
         keys_.clear();
@@ -44,7 +44,7 @@ class SmoothFan {
         return count;
     }
 
-    /// The normal of each corner, in order; join() has been called by number().
+    /// Computes the normal of each corner, in order. number() must have been called.
     void sum(std::span<const Index> corners, std::vector<Vec3>& of_corner) {
         join(corners);
         of_corner.assign(corners.size(), {});
@@ -87,12 +87,12 @@ class SmoothFan {
     const std::vector<Vec3>& normals_;
     double least_cosine_;
     OneRing ring_;
-    std::vector<std::size_t> roots_; ///< indexed like the vertex' corners
+    std::vector<std::size_t> roots_; ///< indexed like the vertex's corners
     std::vector<Key> keys_;
 };
 
-/// Lays out the new wedges vertex by vertex; attributes follow. With as many wedges as vertices, the mesh is
-/// without seams.
+/// Lays out the new wedges vertex by vertex; attributes follow. With as many wedges as vertices, the mesh
+/// has no seams.
 void set_wedges(Mesh& mesh, const std::vector<Index>& wedge_of_corner, const std::vector<Index>& first,
                 Index wedges, const VertexLists& corners_at) {
     std::vector<Index> source(wedges), vertex_of(wedges);
@@ -147,13 +147,14 @@ void set_smooth_normals(Mesh& mesh, double feature_angle) {
     mesh.attributes.push_back({"NORMAL", Domain::wedge, Role::normal, 3, false, std::move(values)});
 }
 
-/// Whether it is nothing without normals: tangents, and how a morph target changes normals and tangents.
+/// Whether the attribute is meaningless without normals: tangents, and changes of normals and tangents by
+/// morph targets.
 bool needs_normals(std::string_view name) {
     return name == "TANGENT" ||
            (name.starts_with("TARGET_") && (name.ends_with("_NORMAL") || name.ends_with("_TANGENT")));
 }
 
-/// The primitives that list their attributes list NORMAL too, or nothing that needs it.
+/// Makes primitives that list their attributes also list NORMAL, or nothing that needs it.
 void list_normals(Mesh& mesh, bool there) {
     for (Primitive& p : mesh.primitives) {
         if (p.attributes.empty()) continue;

@@ -7,12 +7,12 @@
 
 namespace facetmill {
 
-/// For one vertex after the other; keeps its memory.
+/// Visits vertices one after the other, and reuses its memory.
 class OneRing {
   public:
-    /// Calls pair(c, d, agree) for two corners of the vertex whose faces are the only ones at an edge that
-    /// ends in it. agree is true if the edge runs in opposite directions in them. In the order of the
-    /// vertices at the other ends.
+    /// Calls pair(c, d, agree) for each edge of the vertex with exactly two faces, where c and d are their
+    /// corners at the vertex. agree is true if the faces run along the edge in opposite directions. The
+    /// order is by the vertices at the other ends.
     template <class Pair>
     void pairs(const Mesh& mesh, const std::vector<Index>& face_of, std::span<const Index> corners,
                Pair&& pair) {
@@ -36,7 +36,7 @@ class OneRing {
   private:
     struct RingEdge {
         Index other, corner;
-        bool out; ///< the face runs from the vertex to the other
+        bool out; ///< true if the face runs from the vertex to the other end
     };
     std::vector<RingEdge> edges_;
 };

@@ -1,4 +1,4 @@
-// Tangents as glTF's viewers make them for a file without tangents: M. S. Mikkelsen, "Simulation of Wrinkled
+// Computes tangents like glTF viewers for files without tangents: M. S. Mikkelsen, "Simulation of Wrinkled
 // Surfaces Revisited" (2008), chapter 3 and appendix A, in the form that bakers of normal maps agree on
 // (MikkTSpace).
 
@@ -15,7 +15,8 @@ namespace facetmill {
 
 namespace {
 
-constexpr double smallest_float = 1.1754943508222875e-38; ///< float32's: smaller numbers count as zero
+constexpr double smallest_float =
+    1.1754943508222875e-38; ///< the smallest normal float32; smaller numbers count as zero
 
 bool vanishes(const Vec3& v) {
     return std::abs(v.x) <= smallest_float && std::abs(v.y) <= smallest_float &&
@@ -24,15 +25,15 @@ bool vanishes(const Vec3& v) {
 
 Vec3 unit_or_zero(const Vec3& v) { return vanishes(v) ? v : v / length(v); }
 
-/// The unit vector of v projected into the plane with that normal; zero if the projection is.
+/// The unit vector along v projected into the plane with this normal; zero if the projection is zero.
 Vec3 unit_in_plane(const Vec3& v, const Vec3& normal) { return unit_or_zero(v - normal * dot(normal, v)); }
 
 /// A corner's position, normal and texture coordinates.
 using CornerTuple = std::array<float, 8>;
 
 struct Unfolded {
-    std::vector<Index> ids;          ///< [corners] equal where all of the tuple is
-    std::vector<CornerTuple> tuples; ///< by id
+    std::vector<Index> ids;          ///< [corners] equal for corners with equal tuples
+    std::vector<CornerTuple> tuples; ///< tuples by id
     Vec3 position(Index corner) const { return {tuple(corner)[0], tuple(corner)[1], tuple(corner)[2]}; }
     Vec3 normal(Index corner) const { return {tuple(corner)[3], tuple(corner)[4], tuple(corner)[5]}; }
     const CornerTuple& tuple(Index corner) const { return tuples[ids[corner]]; }
@@ -62,12 +63,12 @@ Unfolded unfolded(const Mesh& mesh, const Attribute& normals, const Attribute& u
 }
 
 struct MappedFace {
-    Vec3 along_u, along_v;   ///< of length 1, against u and v where these are mirrored
+    Vec3 along_u, along_v;   ///< unit vectors, reversed if u and v are mirrored
     bool preserving = false; ///< u, v and the normal are right-handed
-    bool any = true;         ///< no direction of its own: joins any neighbour
+    bool any = true;         ///< has no direction of its own, and joins any neighbour
     bool degenerate = false;
     std::array<Index, 3> beside{none, none, none}; ///< the triangle across each edge
-    std::array<Index, 3> group{none, none, none};  ///< of each corner
+    std::array<Index, 3> group{none, none, none};  ///< group of each corner
 };
 
 void set_texture_directions(MappedFace& t, const Unfolded& s, Index f) {
@@ -111,7 +112,8 @@ void find_mapped_neighbours(std::vector<MappedFace>& triangles, const Unfolded& 
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const Edge& a = edges[i];
         if (triangles[a.face].beside[a.corner] != none) continue;
-        constexpr std::size_t farthest = 64; // with thousands at an edge, the right pairs are unknown
+        constexpr std::size_t farthest =
+            64; // with thousands of triangles at an edge, the right pairs are unknown
         for (std::size_t j = i + 1; j < std::min(edges.size(), i + farthest) && edges[j].ends() == a.ends();
              ++j) {
             const Edge& b = edges[j];
@@ -123,13 +125,14 @@ void find_mapped_neighbours(std::vector<MappedFace>& triangles, const Unfolded& 
     }
 }
 
-/// Corners of one id that share a tangent: reached across edges, and of one handedness.
+/// Corners with the same id that share a tangent: they are connected across edges, and have the same
+/// handedness.
 struct TangentGroup {
     bool preserving;
     std::vector<Index> corners;
 };
 
-/// Adds the triangle's corner of that id, and the neighbouring triangles.
+/// Adds the triangle's corner with this id, and the neighbouring triangles.
 void grow_tangent_group(TangentGroup& group, Index number, Index id, Index first,
                         std::vector<MappedFace>& triangles, const Unfolded& s) {
     std::vector<Index> open{first};
@@ -144,7 +147,8 @@ void grow_tangent_group(TangentGroup& group, Index number, Index id, Index first
         if (t.preserving != group.preserving) continue;
         t.group[k] = number;
         group.corners.push_back(3 * f + k);
-        for (const Index next : {t.beside[(k + 2) % 3], t.beside[k]}) // the last one is the first to go on
+        for (const Index next :
+             {t.beside[(k + 2) % 3], t.beside[k]}) // the triangle pushed last is visited first
             if (next != none) open.push_back(next);
     }
 }

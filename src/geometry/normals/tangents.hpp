@@ -1,14 +1,14 @@
 #pragma once
-// Tangents for maps of normals.
+// Computes tangents for normal maps.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
-/// Gives the mesh new tangents for its normals and the texture coordinates TEXCOORD_{uv_set}, in float32, as
-/// viewers of glTF make them (MikkTSpace, with its default threshold). Wedges come apart where tangents do;
-/// corners that no direction of u can be told for get (1, 0, 0). None, and nothing changed, when the mesh has
-/// not both attributes at wedges, or has other faces than triangles. O(n log n).
+/// Gives the mesh new tangents for its normals and the texture coordinates TEXCOORD_{uv_set}, in float32,
+/// like glTF viewers (MikkTSpace, with its default threshold). Wedges are split where tangents differ.
+/// Corners without a direction of u get (1, 0, 0). None, without a change, if the mesh lacks one of these
+/// wedge attributes or has faces other than triangles. O(n log n).
 [[nodiscard]] std::optional<AttributeChange> give_tangents(Mesh& mesh, int uv_set);
 
 } // namespace facetmill

@@ -24,10 +24,10 @@ Vec3 vec(const OpenMesh::Vec3d& p) { return {p[0], p[1], p[2]}; }
 /// The input and results of our OpenMesh module.
 struct Shared {
     std::vector<DecimatedVertex> roles{};
-    std::vector<Index> face_of{}; ///< as it was numbered, by face of the halfedges
-    std::vector<Vec3> normals{};  ///< of the faces as they came
-    double least_cosine = 0;      ///< of a face's normal and the one that it had
-    double max_aspect_ratio = 0;  ///< of a face, where all had less; 0: any
+    std::vector<Index> face_of{}; ///< the input number of each face of the halfedge mesh
+    std::vector<Vec3> normals{};  ///< normals of the input faces
+    double least_cosine = 0; ///< least cosine of the angle between a face's normal and its original normal
+    double max_aspect_ratio = 0; ///< limit for the aspect ratio of faces, if all had less; 0: no limit
     std::vector<Decimation> made{};
 };
 

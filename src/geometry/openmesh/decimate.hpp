@@ -9,25 +9,25 @@ namespace facetmill {
 
 /// The allowed collapses of a vertex.
 enum class DecimatedVertex : std::uint8_t {
-    free,      ///< may go, and others into it
-    stays,     ///< others may go into it
-    untouched, ///< neither
+    free,      ///< may be removed, and others may merge into it
+    stays,     ///< stays, but others may merge into it
+    untouched, ///< is never collapsed
 };
 
-/// A collapse along an edge. side: a face at it, as it was numbered.
+/// A collapse along an edge. side: the input number of a face at the edge.
 struct Decimation {
     Index kept, removed, side;
 };
 
-/// At most so many faces, or so many vertices, whichever comes first.
+/// Stops at this many faces or this many vertices, whichever comes first.
 struct DecimationGoal {
     std::size_t faces = 0, vertices = 0;
 };
 
-/// Collapses edges in the order of OpenMesh's quadric error, new vertices at one of the two ends, as long as
-/// the constraints hold; in the order in which they are made. triangles: [3 faces] vertices. roles: per
-/// vertex. constraints.hausdorff: in the units of the positions. Degenerate faces and those that would make
-/// the surface non-manifold are left out, with their vertices untouched.
+/// Collapses edges in the order of OpenMesh's quadric error, to one of their two ends, while the constraints
+/// hold. Returns the collapses in order. triangles: [3 faces] vertices. roles: [vertices].
+/// constraints.hausdorff: in the units of the positions. Degenerate faces, and faces that would make the
+/// surface non-manifold, are left out, and their vertices stay unchanged.
 [[nodiscard]] std::vector<Decimation> decimate(std::span<const Vec3> positions,
                                                std::span<const Index> triangles,
                                                std::span<const DecimatedVertex> roles,

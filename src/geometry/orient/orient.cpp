@@ -18,14 +18,14 @@ namespace facetmill {
 
 namespace {
 
-/// Components and, within each, which faces have to turn for neighbours to agree.
+/// The components, and the faces that must be reversed so that neighbours agree.
 struct Spread {
     std::vector<OrientedComponent> components;
     std::vector<Index> component_of;
     std::vector<std::uint8_t> flips;
 };
 
-/// Breadth first over edges of two faces, from the lowest face of each component.
+/// Searches breadth-first over edges with two faces, from the lowest face of each component.
 class Spreader {
   public:
     explicit Spreader(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)) {
@@ -42,8 +42,8 @@ class Spreader {
     }
 
   private:
-    /// A face that runs along an edge to and fro (a corner is repeated) does not end at this edge. If just
-    /// two other faces do, they become neighbours.
+    /// A face that runs along an edge back and forth (a corner is repeated) does not end at this edge. If
+    /// exactly two other faces do, they become neighbours.
     void look_past_spikes(Index e) {
         std::vector<Index> others;
         for (const Index c : edges_.corners_of(e)) {
@@ -73,7 +73,7 @@ class Spreader {
         component.faces = queue.size();
         const auto turned = static_cast<std::size_t>(
             std::count_if(queue.begin(), queue.end(), [&](Index f) { return out_.flips[f] != 0; }));
-        // The front follows the majority of the faces; a component that cannot be oriented is unchanged.
+        // The front follows the majority of the faces. A component that cannot be oriented stays unchanged.
         const bool other = 2 * turned > queue.size();
         for (const Index f : queue) out_.flips[f] = component.orientable && (out_.flips[f] != 0) != other;
         out_.components.push_back(component);
@@ -107,11 +107,11 @@ class Spreader {
     const Mesh& mesh_;
     EdgeTable edges_;
     std::vector<Index> faces_;
-    std::map<Index, Index> across_; ///< of corners at crowded edges: see look_past_spikes
+    std::map<Index, Index> across_; ///< for corners at crowded edges, see look_past_spikes
     Spread out_;
 };
 
-/// Which components of a consistent mesh have to turn for their front to be outside.
+/// Finds the components of a consistent mesh that must be reversed so that their front is outside.
 class Outside {
   public:
     Outside(const Mesh& mesh, Spread& spread, Nested nested)
@@ -138,7 +138,7 @@ class Outside {
     }
 
   private:
-    /// Whether some face of the component has a front at all: three corners apart.
+    /// Whether a face of the component has a front: three different corners.
     bool has_sides(std::size_t p) const {
         return std::any_of(faces_[p].begin(), faces_[p].end(), [&](Index f) {
             std::set<Index> vertices;
@@ -174,8 +174,8 @@ class Outside {
             [](double a, double b) { return a + b; });
     }
 
-    /// In how many other closed components each closed component lies. One that touches or crosses another is
-    /// not nested in it: overlapping solids are no cavities of each other.
+    /// Finds the number of closed components that contain each closed component. A component that touches or
+    /// intersects another is not nested in it, because overlapping solids are not cavities of each other.
     void find_depths() {
         std::vector<std::vector<Index>> around(spread_.components.size());
         parallel_for(
@@ -212,8 +212,8 @@ class Outside {
         return meeting;
     }
 
-    /// Rays along the axes from faces spread over the component: how much of their front sees the outside,
-    /// less how much of their back does. Only the component itself is in the way.
+    /// Casts rays along the axes from faces spread over the component. Returns the share of front sides that
+    /// see the outside, minus the share of back sides. Only the component itself blocks rays.
     double votes(std::size_t p) const {
         constexpr std::size_t most = 256;
         const auto& faces = faces_[p];
@@ -245,7 +245,7 @@ class Outside {
     Nested nested_;
     FaceTree rays_;
     std::vector<std::vector<Index>> faces_;
-    PowerScale scale_; ///< of the areas that votes weighs
+    PowerScale scale_; ///< scale of the areas that weigh votes
 };
 
 } // namespace
@@ -278,7 +278,7 @@ namespace {
 
 Vec3 vector_of(const Attribute& a, std::size_t i) { return {a.value(i, 0), a.value(i, 1), a.value(i, 2)}; }
 
-/// The sum of the area vectors of the faces at each wedge that a flagged face uses; zero at the others.
+/// The sum of the area vectors of the faces at each wedge that a flagged face uses; zero for other wedges.
 std::vector<Vec3> faces_at_wedges(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     std::vector<std::uint8_t> touched(mesh.wedge_count(), 0);
     for (Index f = 0; f < flags.size(); ++f)
@@ -293,7 +293,7 @@ std::vector<Vec3> faces_at_wedges(const Mesh& mesh, const std::vector<std::uint8
     return sums;
 }
 
-/// Turns the normals that point against their faces, and the handedness of their tangents.
+/// Reverses normals that point against their faces, and the handedness of their tangents.
 void turn_normals(Mesh& mesh, const std::vector<Vec3>& faces) {
     Attribute& normals = *mesh.find("NORMAL", Domain::wedge);
     Attribute* tangents = mesh.find("TANGENT", Domain::wedge);

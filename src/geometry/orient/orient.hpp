@@ -1,6 +1,5 @@
 #pragma once
-// The orientation of a surface: vertices are ordered as P. Bourke, "Facets, planes, normals, rendering"
-// (1992), requires.
+// Orients a surface: orders vertices as P. Bourke, "Facets, planes, normals, rendering" (1992), requires.
 
 #include "mesh/mesh.hpp"
 
@@ -12,12 +11,11 @@ namespace facetmill {
 enum class OrientMethod {
     outward,    ///< neighbours agree, and the front is the outside
     consistent, ///< neighbours agree; the front follows the majority of the faces of a component
-    flip,       ///< every face is turned round
+    flip,       ///< every face is reversed
 };
 enum class Nested {
-    cavities, ///< a closed component inside another, which it does not meet, is its cavity: it faces the
-              ///< hollow
-    solids,   ///< every closed component is a solid of its own
+    cavities, ///< a closed component inside another, without touching it, is its cavity and faces inward
+    solids,   ///< every closed component is a separate solid
 };
 
 struct OrientSettings {
@@ -25,37 +23,38 @@ struct OrientSettings {
     Nested nested = Nested::cavities;
 };
 
-/// A component of the surface: faces connected over edges of two faces.
+/// A component of the surface: faces connected by edges with two faces.
 struct OrientedComponent {
     Index first_face = none;
     std::size_t faces = 0, flipped = 0;
     bool closed = false;    ///< every edge has two faces
-    bool orientable = true; ///< else it is left as it was
-    bool undecided = false; ///< open, and both sides look alike: only made consistent
-    std::size_t depth = 0;  ///< the number of closed components that contain it, if it is closed itself
-    Vec3 conflict;          ///< not orientable: where neighbours cannot agree
+    bool orientable = true; ///< if not, it stays unchanged
+    bool undecided =
+        false;             ///< an open component whose sides are equally visible; it was only made consistent
+    std::size_t depth = 0; ///< the number of closed components that contain it, if it is closed itself
+    Vec3 conflict;         ///< if not orientable: a position where neighbours cannot agree
 };
 
 struct OrientResult {
     Mesh mesh;
-    std::vector<OrientedComponent> components; ///< by first face
+    std::vector<OrientedComponent> components; ///< sorted by first face
     std::size_t flipped = 0;
     AttributeChanges changes;
 };
 
-/// Turns faces round so that neighbours agree (spread over edges of two faces) and, for outward, the front of
-/// each component is its outside. For closed components that is decided by the sign of the volume and by how
-/// many other closed components contain them without touching them (exact rays along an axis); for open ones
-/// by a vote of rays from their faces along the axes: the side from which more of them escape is outside.
-/// Edges of more than two faces part components. A component that cannot be oriented (a Moebius strip) is
-/// left as it was. Corners are reversed from the second on; wedge normals that then point against their faces
-/// are turned with them, and their tangents' handedness. O(n log n).
+/// Reverses faces so that neighbours across edges with two faces agree. With `outward`, the front of each
+/// component becomes its outside. For closed components, the sign of the volume decides, together with a
+/// number. It counts the other closed components that contain them without touching (exact rays along an
+/// axis). For open components, rays from their faces along the axes decide: more rays escape from the
+/// outside. Edges with more than two faces separate components. A component that cannot be oriented (a
+/// Moebius strip) stays unchanged. Corners are reversed from the second on. Wedge normals that then point
+/// against their faces are reversed, as is the handedness of their tangents. O(n log n).
 [[nodiscard]] OrientResult orient(Mesh mesh, const OrientSettings& settings);
 
-/// 1 for the faces that the method consistent turns round; the mesh stays as it is.
+/// [faces] 1 for the faces that the method `consistent` reverses. The mesh stays unchanged.
 [[nodiscard]] std::vector<std::uint8_t> consistent_flips(const Mesh& mesh);
 
-/// Turns the flagged faces round; orient documents the changes of attributes.
+/// Reverses the flagged faces. `orient` documents the changes of attributes.
 AttributeChanges flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags);
 
 } // namespace facetmill

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_points = 48;
 constexpr double unit = 0x1p-52;
 
-/// A determinant of points, and the magnitude of its terms.
+/// A determinant of points, with the magnitude of its terms.
 struct Sized {
     double det, size;
 };
@@ -31,7 +31,7 @@ Sized turn_of(const Vec2& a, const Vec2& b, const Vec2& c) {
 /// The sign of a determinant above this bound is certain.
 double bound_of(double size, double off) { return 16 * size * (2 * off + unit * size); }
 
-/// How wrong any coordinate may be; none where a product could overflow, or underflow where it matters.
+/// The largest error of any coordinate. None if a product could overflow, or underflow where it matters.
 std::optional<double> error_of(const CutTriangle& cut) {
     double most = 0;
     for (const Vec2& p : cut.points) most = std::max({most, std::abs(p.x), std::abs(p.y)});
@@ -65,14 +65,14 @@ class CertainTriangulation {
     }
 
     Sized turn(Index a, Index b, Index c) const { return turn_of(at(a), at(b), at(c)); }
-    /// Positive with d in the circle of a, b, c, which turn left.
+    /// Positive if d is in the circle of a, b and c, which turn left.
     Sized circle(Index a, Index b, Index c, Index d) const {
         const Vec2 u = at(a) - at(d), v = at(b) - at(d), w = at(c) - at(d);
         return {dot(u, u) * cross(v, w) + dot(v, v) * cross(w, u) + dot(w, w) * cross(u, v),
                 size_of({u.x, u.y, v.x, v.y, w.x, w.y})};
     }
     bool turns_left(Index a, Index b, Index c) const { return surely_left(at(a), at(b), at(c), off_); }
-    // --- finding triangles: nothing here has to be sure
+    // --- finding triangles: these steps need not be certain
 
     bool is_crossed(Index p, Index q) const {
         return std::any_of(lines_.begin(), lines_.end(), [&](const auto& line) {
@@ -106,18 +106,18 @@ class CertainTriangulation {
             for (const auto& [from, to] : {std::array{c, b}, std::array{a, c}}) {
                 if (border_[to][from]) continue;
                 open.push_back({from, to});
-                if (!fixed_[from][to]) lines_.push_back({from, to}); // of points on a circle, one diagonal
+                if (!fixed_[from][to]) lines_.push_back({from, to}); // points on a circle need one diagonal
                 fixed_[from][to] = fixed_[to][from] = 1;
             }
         }
         return true;
     }
 
-    // --- and proving them
+    // --- proving them
 
     bool is_proved() const {
         if (triangles_.size() + border_edges_.size() + 2 != 2 * count_) return false; // all points are used
-        for (const auto& [a, b] : lines_)                                             // and all other edges
+        for (const auto& [a, b] : lines_) // all other edges must pair up
             if (across_[a][b] == none || across_[b][a] == none) return false;
         for (const auto& [a, b, c] : triangles_)
             if (!turns_left(a, b, c)) return false;
@@ -134,10 +134,11 @@ class CertainTriangulation {
 
     const CutTriangle& cut_;
     std::size_t count_;
-    double off_ = 0; ///< how wrong any coordinate may be
+    double off_ = 0; ///< the largest error of any coordinate
     std::vector<std::array<Index, 2>> lines_, border_edges_;
-    Matrix<std::uint8_t> fixed_{}, border_{}; ///< by ends: a line; an edge along a side, inside on its left
-    Matrix<Index> across_{};                  ///< the corner left of an edge
+    Matrix<std::uint8_t> fixed_{},
+        border_{}; ///< by ends: 1 for a line; 1 for an edge along a side, with the inside on its left
+    Matrix<Index> across_{}; ///< the third corner of the triangle left of an edge
     std::vector<std::array<Index, 3>> triangles_;
 };
 
@@ -176,7 +177,7 @@ class CertainCrossings {
     };
     const Vec2& at(Index i) const { return cut_.points[i]; }
 
-    /// 1: left, -1: right, 0: not sure.
+    /// 1: left, -1: right, 0: uncertain.
     int sure_turn(Index a, Index b, Index c) const {
         const auto [det, size] = turn_of(at(a), at(b), at(c));
         const double bound = bound_of(size, off_);

@@ -1,6 +1,6 @@
 // Contacts between the edges of rings, by a sweep over their corners from left to right: M. I. Shamos and D.
 // Hoey, "Geometric intersection problems" (1976). The sweep ends at the first crossing and also finds edges
-// that touch. Every sign is of three corners and exact; no point is constructed.
+// that touch. Every sign is exact, and computed from three corners; no point is constructed.
 #include "geometry/polygon/ring_tree.hpp"
 
 #include <algorithm>
@@ -11,43 +11,44 @@ namespace facetmill::polygon {
 
 namespace {
 
-/// By x, then y: as if the sweep's line leaned a little, so that no edge is vertical.
+/// Compares by x, then y. This acts as if the sweep line were slightly inclined, so that no edge is
+/// vertical.
 bool comes_before(const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
-/// An edge that has a length, from its left end to its right.
+/// An edge of nonzero length, from its left end to its right end.
 struct SweptEdge {
     Vec2 left, right;
 };
 
-/// 1 when the point is above the edge's line, -1 below, 0 on it.
+/// 1 if the point is above the edge's line, -1 if below, 0 if on it.
 int height_over(const SweptEdge& e, const Vec2& p) { return turn(e.left, e.right, p); }
 
-/// Whether two edges cross inside both.
+/// Whether two edges cross in the interior of both.
 bool cross_inside(const SweptEdge& e, const SweptEdge& f) {
     return height_over(e, f.left) * height_over(e, f.right) < 0 &&
            height_over(f, e.left) * height_over(f, e.right) < 0;
 }
 
-/// The order from below to above, just behind the sweep's line, of edges that it meets and that have not
-/// crossed before it. Edges that run along each other there are equal.
+/// Orders edges on the sweep line from bottom to top, just after the line. The edges must not have crossed
+/// before it. Edges that overlap just after the line are equal.
 struct LowerOnLine {
     using is_transparent = void;
     bool operator()(const SweptEdge& e, const SweptEdge& f) const {
         return comes_before(f.left, e.left) ? order(f, e) < 0 : order(e, f) > 0;
     }
-    /// Compares edges with points on the sweep's line.
+    /// Compares edges with points on the sweep line.
     bool operator()(const SweptEdge& e, const Vec2& p) const { return height_over(e, p) > 0; }
     bool operator()(const Vec2& p, const SweptEdge& e) const { return height_over(e, p) < 0; }
 
   private:
-    /// 1 when the second is above the first, which does not begin behind it.
+    /// 1 if the second edge is above the first. The first must not begin after the second.
     static int order(const SweptEdge& first, const SweptEdge& second) {
         const int at_left = height_over(first, second.left);
         return at_left != 0 ? at_left : height_over(first, second.right);
     }
 };
 
-/// f comes after e: do they run along each other from their common corner?
+/// Whether f, the edge after e, overlaps e from their common corner.
 bool runs_back(const RingEdge& e, const RingEdge& f) {
     if (e.a == e.b || f.a == f.b || turn(e.a, e.b, f.b) != 0) return false;
     return comes_before(e.a, e.b) != comes_before(f.a, f.b);
@@ -61,7 +62,7 @@ bool touch_at_corner(const std::vector<RingEdge>& edges, Index i, Index j) {
     return (after && runs_back(e, f)) || (before && runs_back(f, e));
 }
 
-/// Two edges that touch do so in an end of one of them, where the sweep finds the contact. Until the first
+/// Two edges that touch do so at an end of one of them, where the sweep finds the contact. Until the first
 /// crossing, the edges that the line meets have an order. Two edges that cross next are neighbours in this
 /// order before they cross, except edges that end at the crossing and are removed first.
 class ContactSweep {
@@ -90,7 +91,7 @@ class ContactSweep {
   private:
     struct Corner {
         Vec2 at;
-        Index edge = 0; ///< that begins there
+        Index edge = 0; ///< the edge that begins at the corner
     };
     using OnLine = std::set<SweptEdge, LowerOnLine>;
 
@@ -104,16 +105,17 @@ class ContactSweep {
         }
     }
 
-    /// Whether edges with a corner here meet in it other than as neighbours do.
+    /// Whether edges with a corner at this point meet in it without being neighbours.
     bool touch_here() const {
-        if (here_.size() > 3) return true; // of four, two are no neighbours
+        if (here_.size() > 3) return true; // among four edges, two are not neighbours
         for (std::size_t i = 0; i < here_.size(); ++i)
             for (std::size_t j = i + 1; j < here_.size(); ++j)
                 if (touch_at_corner(edges_, here_[i], here_[j])) return true;
         return false;
     }
 
-    /// Removes edges that end at the point; others through it touch an edge with a corner at the point.
+    /// Removes edges that end at the point. Other edges through the point touch an edge with a corner at the
+    /// point.
     void take_out(const Vec2& place) {
         auto at = on_line_.lower_bound(place);
         std::size_t through = 0;
@@ -126,13 +128,16 @@ class ContactSweep {
             }
         }
         touching_ = touching_ || through > 0;
-        crossing_ = crossing_ || through > 1; // on two lines, because collinear edges are merged
+        crossing_ =
+            crossing_ ||
+            through >
+                1; // two edges through the point are on different lines, because collinear edges are merged
         look_below(at);
         if (through > 0) look_below(std::prev(at));
     }
 
-    /// Among collinear overlapping edges only the last to end stays: from here on it crosses others wherever
-    /// one of them does. Thus few edges go through a point, however many are collinear.
+    /// Among collinear overlapping edges, only the edge that ends last stays, because it crosses every edge
+    /// that the others would cross. So few edges go through a point.
     void put_in(const SweptEdge& e) {
         auto [at, alone] = on_line_.insert(e);
         if (!alone) {
@@ -143,7 +148,7 @@ class ContactSweep {
         look_below(std::next(at));
     }
 
-    /// Whether it crosses the one below it.
+    /// Tests whether the edge crosses the edge below it.
     void look_below(OnLine::const_iterator at) {
         if (at == on_line_.begin() || at == on_line_.end()) return;
         crossing_ = crossing_ || cross_inside(*std::prev(at), *at);
@@ -181,7 +186,7 @@ Contact contact_of(const std::vector<RingEdge>& edges, Index i, Index j) {
                : Contact::none;
 }
 
-/// For faces as most are, of few corners: many times as fast as the sweep.
+/// For faces with few corners, which are most: many times as fast as the sweep.
 Contact contact_by_pairs(const std::vector<RingEdge>& edges) {
     Contact worst = Contact::none;
     for (Index i = 0; i < edges.size(); ++i)

@@ -67,7 +67,7 @@ double angle_sum(const Vec3& q, std::span<const Vec3> convex) {
     for (std::size_t i = 0; i < convex.size(); ++i) {
         const Vec3 a = convex[i] - q, b = convex[i + 1 == convex.size() ? 0 : i + 1] - q;
         // The arc cosine of P. Bourke, "Determining if a point lies on the interior of a polygon" (1987),
-        // loses half the digits of small angles; this arc tangent does not.
+        // loses half the digits of small angles. This arc tangent does not.
         sum += arc_tangent(length(cross(a, b)), dot(a, b));
     }
     return sum;

@@ -38,7 +38,8 @@ std::vector<std::vector<Vec2>> tidied(std::vector<std::vector<Vec2>> rings) {
 
 /// Reports the first point where two segments cross.
 void refuse_crossings(const RingTree& tree, polygon::Rings rings) {
-    if (polygon::contact(rings) != polygon::Contact::crossing) return; // of a star, nearly all boxes meet
+    if (polygon::contact(rings) != polygon::Contact::crossing)
+        return; // fast even for a star, whose boxes meet
     const auto& edges = tree.edges();
     for (Index i = 0; i < edges.size(); ++i)
         tree.query(RingTree::bounds(edges[i]), [&](Index j) {
@@ -73,7 +74,8 @@ Footprint::Footprint(std::vector<std::vector<Vec2>> rings)
         int depth = 0;
         for (std::size_t k = 0; k < rings_.size(); ++k) {
             if (k == i) continue;
-            auto place = polygon::PointLocation::on_edge; // of the first corner that tells
+            auto place =
+                polygon::PointLocation::on_edge; // the location of the first corner that is not on an edge
             for (std::size_t c = 0; c < rings_[i].size() && place > polygon::PointLocation::inside; ++c)
                 place = polygon::locate(rings_[i][c], rings_[k]);
             depth += place == polygon::PointLocation::inside;
@@ -98,7 +100,7 @@ polygon::PointLocation Footprint::locate(const Vec2& p) const {
             if (e.a.y == p.y && e.b.y == p.y && (e.a.x <= p.x) != (e.b.x <= p.x)) on = PointLocation::on_edge;
             return true;
         }
-        if (std::max(e.a.x, e.b.x) < p.x) { // all of it is on the left
+        if (std::max(e.a.x, e.b.x) < p.x) { // the whole edge is on the left
             inside = !inside;
             return true;
         }

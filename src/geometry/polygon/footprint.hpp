@@ -1,47 +1,45 @@
 #pragma once
-// A polygon with holes to crop by, checked and ready to be asked.
+// A checked polygon with holes for cropping, prepared for fast queries.
 
 #include "geometry/polygon/ring_tree.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace facetmill {
 
-/// How a face and a stretch of the outline lie to each other, both seen along the axis.
+/// How a face and a segment of the outline meet, both projected along the axis.
 enum class OutlineMeeting {
     disjoint,
-    touching, ///< they share points, but the stretch does not enter the face
-    crossing, ///< it does; also said of concave faces and of faces seen edge-on whenever it may
+    touching, ///< they share points, but the segment does not enter the face
+    crossing, ///< the segment enters the face, or may enter a concave or edge-on face
 };
 
 class Footprint {
   public:
-    /// Any number of rings: outlines, holes, islands in holes, in any order and either orientation. Repeated
-    /// consecutive corners are left out, also a last corner equal to the first. A point in an odd number of
-    /// rings is inside. Throws usage (E-FOOTPRINT) for numbers that are not finite and for a ring of fewer
-    /// than three corners or without area. It also throws, with the position, if rings cross themselves or
-    /// each other; touching is allowed.
+    /// Accepts any number of rings: outlines, holes, and islands in holes, in any order and orientation.
+    /// Repeated consecutive corners are dropped, as is a last corner equal to the first. A point in an odd
+    /// number of rings is inside. Throws a usage error (E-FOOTPRINT) for numbers that are not finite and for
+    /// a ring of fewer than three corners or without area. It also throws, with the position, if rings cross
+    /// themselves or each other; touching is allowed.
     explicit Footprint(std::vector<std::vector<Vec2>> rings);
 
     /// Outlines anticlockwise, holes clockwise: the inside is on the left of every segment.
     const std::vector<std::vector<Vec2>>& rings() const { return rings_; }
     std::vector<polygon::Ring> spans() const { return {rings_.begin(), rings_.end()}; }
-    /// Segments of all rings, in order.
+    /// The segments of all rings, in order.
     const polygon::RingTree& tree() const { return tree_; }
 
-    /// As polygon::locate, in logarithmic time.
+    /// Like polygon::locate, in logarithmic time.
     polygon::PointLocation locate(const Vec2& p) const;
-    /// Calls visit(segment) for the segments at most so far from a point, until it returns false.
+    /// Calls visit(segment) for the segments that meet the box of that half size around a point, until it
+    /// returns false.
     template <class Visit>
-    void near(const Vec2& p, double distance, Visit&& visit) const {
-        tree_.query({p.x - distance, p.y - distance, p.x + distance, p.y + distance}, [&](Index i) {
+    void near(const Vec2& p, const Vec2& reach, Visit&& visit) const {
+        tree_.query({p.x - reach.x, p.y - reach.y, p.x + reach.x, p.y + reach.y}, [&](Index i) {
             const auto& e = tree_.edges()[i];
-            const Vec2 d = e.b - e.a, to = p - e.a;
-            // Most lines are much farther off than rounding errors, which this test finds without a division.
-            const double square = dot(d, d), off = cross(d, to), most = 4 * (distance * distance * square);
-            if (off * off > most && most > std::numeric_limits<double>::min()) return true;
-            const double along = dot(to, d) / square, t = along > 0 ? along < 1 ? along : 1 : 0;
-            return length(e.a + d * t - p) > distance || visit(i);
+            const Vec2 d = e.b - e.a;
+            const double most = std::fabs(d.x) * reach.y + std::fabs(d.y) * reach.x;
+            return std::fabs(cross(d, p - e.a)) > most || visit(i);
         });
     }
     double area() const;
@@ -51,7 +49,7 @@ class Footprint {
     polygon::RingTree tree_;
 };
 
-/// Exact but for what OutlineMeeting says of concave faces and those seen edge-on.
+/// Exact, except for concave and edge-on faces (see OutlineMeeting).
 [[nodiscard]] OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b);
 
 } // namespace facetmill

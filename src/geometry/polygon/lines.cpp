@@ -13,7 +13,7 @@ namespace {
 
 struct Crossing {
     std::int64_t line;
-    double at; ///< along the line
+    double at; ///< position along the line
     int turn;  ///< the change of the winding number; 0: the surrounding frame begins or ends
 };
 
@@ -32,8 +32,8 @@ std::int64_t line_above(double height, double spacing) {
     return k;
 }
 
-/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to no two sides,
-/// so every line crosses every ring as often up as down.
+/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to only one
+/// side, so every line crosses every ring as often up as down.
 void cross_ring(Ring ring, const HatchSettings& s, bool frame, std::vector<Crossing>& out) {
     const Vec2 across{-s.direction.y, s.direction.x};
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -67,7 +67,7 @@ std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep 
     for (const Ring ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             Vec2 p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
-            // In a fixed order, so that coincident edges are crossed at the same point.
+            // Uses a fixed order of ends, so that coincident edges are crossed at the same point.
             if (q.x < p.x || (q.x == p.x && q.y < p.y)) std::swap(p, q);
             const auto left = [&](const Vec2& c) {
                 return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y) >= 0;
@@ -99,8 +99,8 @@ std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep 
 
 namespace {
 
-/// The segments between crossings whose winding number is kept, by line and position. Each segment runs from
-/// the line's start on; odd lines run back.
+/// The segments between crossings whose winding number is kept, sorted by line and position. Segments run
+/// along the line's direction; on odd lines, they run backward.
 std::vector<Segment> kept_segments(const std::vector<Crossing>& crossings, const HatchSettings& s) {
     const Vec2 across{-s.direction.y, s.direction.x};
     std::vector<Segment> segments;
@@ -112,7 +112,7 @@ std::vector<Segment> kept_segments(const std::vector<Crossing>& crossings, const
         winding += turn;
         framed ^= turn == 0;
         const bool kept = s.keep == Keep::inside ? winding != 0 : framed && winding == 0;
-        if (kept && from == to) continue; // coincident corners and edges
+        if (kept && from == to) continue; // skips coincident corners and edges
         if (kept) {
             const Vec2 foot = across * (static_cast<double>(line) * s.spacing);
             const Vec2 begin = foot + s.direction * from, end = foot + s.direction * to;
@@ -147,7 +147,7 @@ std::vector<Segment> hatch(Rings rings, const HatchSettings& s) {
     });
     const Vec2 across{-s.direction.y, s.direction.x};
     std::vector<Segment> segments = kept_segments(crossings, s);
-    // A pen that runs back and forth: odd lines are drawn from their far end.
+    // Like a pen that moves back and forth, odd lines are drawn from their far end.
     for (std::size_t i = 0; i < segments.size();) {
         std::size_t end = i;
         const auto height = [&](const Segment& g) { return std::llround(dot(g.a, across) / s.spacing); };

@@ -13,8 +13,8 @@ namespace facetmill::polygon {
 
 namespace {
 
-/// Integrals over a ring, about a reference point: the sums of P. Bourke, "Calculating the area and centroid
-/// of a polygon" (1988), with their factors.
+/// Integrals over a ring, relative to a reference point. The sums are from P. Bourke, "Calculating the area
+/// and centroid of a polygon" (1988), with their factors.
 struct Integrals {
     double one = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 
@@ -31,7 +31,7 @@ struct Integrals {
 
 const Vec2& following(Ring ring, std::size_t i) { return ring[i + 1 == ring.size() ? 0 : i + 1]; }
 
-/// For numbers whose products doubles cannot hold.
+/// Computes the orientation for numbers whose products doubles cannot hold.
 int integer_orientation(Ring ring) {
     mpz_class twice;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -58,7 +58,7 @@ int orientation(Ring ring) {
         twice += cross(a, b);
         size += std::abs(a.x * b.y) + std::abs(a.y * b.x);
     }
-    // Each term is off by at most 4 units of rounding of its size, and adding n terms adds n more.
+    // The error of each term is at most 4 rounding units of its size. Adding n terms adds n units.
     const double bound = size * (static_cast<double>(ring.size()) + 4) * 2.3e-16 + orientation_smallest;
     if (std::abs(twice) > bound) return twice > 0 ? 1 : -1;
     ExactSum<> exact;
@@ -76,7 +76,7 @@ PrincipalAxes principal_axes(const SecondMoments& m) {
     axes.largest = mean + r;
     axes.smallest = mean - r;
     if (r > 0) {
-        const double c = half / r, s = -m.xy / r; // of twice the angle
+        const double c = half / r, s = -m.xy / r; // cosine and sine of twice the angle
         if (c >= 0) {
             axes.major.x = std::sqrt((1 + c) / 2);
             axes.major.y = s / (2 * axes.major.x);
@@ -126,8 +126,9 @@ double area(std::span<const Vec3> p) {
 
 namespace {
 
-/// The normal of the polygon's plane, not of unit length. If its parts cancel in the sum (a bow-tie), the
-/// normal of its largest triangle at the corner farthest from the first. Zero if all corners are on a line.
+/// The normal of the polygon's plane, not of unit length. If its parts cancel in the sum (a bow-tie), this
+/// is the normal of its largest triangle at the corner farthest from the first. Zero if all corners are on a
+/// line.
 Vec3 upright(std::span<const Vec3> p) {
     const Vec3 area = area_vector(p);
     Vec3 far, largest;
@@ -178,7 +179,8 @@ bool is_convex(Ring ring) {
         const int t = turn(a, b, c);
         if (t * sign < 0) return false;
         if (t != 0) sign = t;
-        // Going round once, the edges change between rising and falling (by x, then y) exactly twice.
+        // In a ring that goes round once, the edges change between rising and falling (by x, then y) exactly
+        // twice.
         const int rises = a.x < b.x || (a.x == b.x && a.y < b.y) ? 1 : a == b ? 0 : -1;
         if (rises == 0) continue;
         if (last != 0 && rises != last) ++reversals;

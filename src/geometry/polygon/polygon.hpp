@@ -3,8 +3,8 @@
 // not a polygon (2D) has its vertices ordered clockwise or counter-clockwise" (1998), "Clipping a line
 // segment to a complex polygon" (1997), "Calculating the area of a 3D polygon" (2000), "Determining if a
 // point lies on the interior of a polygon" (1987) and "Calculating the area and centroid of a polygon"
-// (1988). Signs that decide are exact (base/math/predicates.hpp); sums are taken about a point of the
-// polygon, so that polygons far from the origin lose nothing.
+// (1988). Deciding signs are exact (base/math/predicates.hpp). Sums are relative to a point of the polygon,
+// so that polygons far from the origin keep their precision.
 
 #include "base/math/vec.hpp"
 #include "mesh/mesh.hpp"
@@ -15,7 +15,7 @@
 
 namespace facetmill {
 
-/// A point of a plane.
+/// A point in a plane.
 struct Vec2 {
     double x = 0, y = 0;
     constexpr bool operator==(const Vec2&) const = default;
@@ -31,7 +31,7 @@ namespace polygon {
 
 /// The corners of a closed polygon; the last is joined to the first.
 using Ring = std::span<const Vec2>;
-/// A polygon with holes: its rings in any order. For areas, holes run the other way round than outlines.
+/// A polygon with holes: its rings in any order. For areas, holes run in the opposite direction to outlines.
 using Rings = std::span<const Ring>;
 
 // --- Area, centroid, second moments
@@ -39,11 +39,11 @@ using Rings = std::span<const Ring>;
 /// A = 1/2 sum(x_i y_i+1 - x_i+1 y_i): positive when anticlockwise.
 [[nodiscard]] double signed_area(Ring ring);
 
-/// 1 anticlockwise, -1 clockwise, 0 without area: the sign of the ring's signed area, exact for any ring,
-/// concave too.
+/// The sign of the ring's signed area: 1 anticlockwise, -1 clockwise, 0 without area. Exact for any ring.
 [[nodiscard]] int orientation(Ring ring);
 
-/// Second moments: x = integral of y^2 (about the x axis), y = of x^2, xy = of x y. Length to the fourth.
+/// Second moments: x is the integral of y^2 (about the x axis), y of x^2, and xy of x y. Unit: length to the
+/// fourth power.
 struct SecondMoments {
     double x = 0, y = 0, xy = 0;
 };
@@ -55,69 +55,70 @@ struct PrincipalAxes {
 };
 
 struct Moments {
-    double area = 0; ///< not negative
+    double area = 0; ///< never negative
     Vec2 centroid;
     SecondMoments about_origin, about_centroid;
-    PrincipalAxes axes; ///< about the centroid
+    PrincipalAxes axes; ///< axes through the centroid
 };
 
-/// Of a polygon with holes by orientation, summed over its rings; when the sum is clockwise all signs are
-/// turned, as P. Bourke, "Calculating the area and centroid of a polygon" (1988), requires. None when the
-/// area is zero. The rings must not cross themselves: see classify.
+/// The moments of a polygon with holes by orientation, summed over its rings. If the sum is clockwise, all
+/// signs are reversed, as P. Bourke, "Calculating the area and centroid of a polygon" (1988), requires. None
+/// if the area is zero. The rings must not cross themselves: see classify.
 [[nodiscard]] std::optional<Moments> moments(Rings rings);
 [[nodiscard]] std::optional<Moments> moments(Ring ring);
 
-/// From cos 2t = (Ix - Iy) / 2r, sin 2t = -Ixy / r, r^2 = ((Ix - Iy) / 2)^2 + Ixy^2; the x axis when all are
-/// equal.
+/// Computed from cos 2t = (Ix - Iy) / 2r, sin 2t = -Ixy / r, r^2 = ((Ix - Iy) / 2)^2 + Ixy^2; the x axis
+/// when all are equal.
 [[nodiscard]] PrincipalAxes principal_axes(const SecondMoments& moments);
 
 // --- Polygons in space
 
-/// Half the sum of P_i x P_i+1 (Stokes): along the normal from which the corners run anticlockwise, as long
-/// as the area. The order P_i x P_i-1 of P. Bourke, "Calculating the area of a 3D polygon" (2000), gives the
-/// negative. For any closed polygon, planar or not.
+/// Half the sum of P_i x P_i+1 (Stokes). It points along the normal from which the corners run
+/// anticlockwise, and its length is the area. The order P_i x P_i-1 of P. Bourke, "Calculating the area of a
+/// 3D polygon" (2000), gives the negative. Accepts any closed polygon, planar or not.
 [[nodiscard]] Vec3 area_vector(std::span<const Vec3> corners);
 
-/// |(P1 - P0) x (P2 - P0)| / 2 for a triangle. |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
+/// The area: |(P1 - P0) x (P2 - P0)| / 2 for a triangle. |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
 /// parallelogram of its edge midpoints). For more corners, the length of area_vector.
 [[nodiscard]] double area(std::span<const Vec3> corners);
 
-/// The largest distance of a corner from the plane through the mean of the corners across area_vector; 0 for
-/// triangles. For a polygon whose parts cancel in area: across that of its largest triangle; 0 on a line.
+/// The largest distance of a corner from the plane through the mean of the corners, perpendicular to
+/// plane_normal; 0 for triangles, and for corners on a line.
 [[nodiscard]] double plane_deviation(std::span<const Vec3> corners);
 
-/// The unit normal of the polygon's plane, along area_vector. If the parts cancel in it to 1e-12 of the
-/// square of the polygon's size (a bow-tie), the normal of its largest triangle. Zero if all corners are on a
-/// line.
+/// The unit normal of the polygon's plane, along area_vector. If the parts cancel in area_vector, to 1e-12
+/// of the square of the polygon's size (a bow-tie), this is the normal of its largest triangle. Zero if all
+/// corners are on a line.
 [[nodiscard]] Vec3 plane_normal(std::span<const Vec3> corners);
 
-/// The corners seen along the coordinate axis nearest to the normal, mirrored so that the ring is
-/// anticlockwise when the normal points at the viewer. The coordinates are copied, not computed, so turns are
-/// those of the corners.
+/// The corners projected along the coordinate axis nearest to the normal, mirrored so that the ring is
+/// anticlockwise if the normal points at the viewer. Coordinates are copied, not computed, so turns stay
+/// exact.
 [[nodiscard]] std::vector<Vec2> flattened(std::span<const Vec3> corners);
 
 // --- Kinds
 
-/// Convex: all turns (cross products of neighbouring edges) have the same sign or are straight, and the ring
-/// goes round once (a pentagram's turns agree as well). Exact.
+/// True if all turns have the same sign or are straight, and the ring goes round once (the turns of a
+/// pentagram also agree). Exact.
 bool is_convex(Ring ring);
 
-/// How the edges of rings meet other than at common corners of neighbours.
+/// How edges of rings meet, except neighbours at their common corner.
 enum class Contact {
     none,
     touching, ///< a corner on a corner or edge, or edges along each other
     crossing, ///< two edges cross in their interiors
 };
-/// Exact; O(n log n), however long and tangled the edges.
+/// Exact; O(n log n) for any edges.
 [[nodiscard]] Contact contact(Rings rings);
 
 enum class Kind {
     triangle,
-    quad,    ///< rectangle or other convex polygon with four corners
+    quad,    ///< a convex polygon with four corners
     convex,  ///< five corners or more
     concave, ///< no edge meets another
-    complex, ///< holes, by coincident edges or several rings, or corners that touch; covers each point once
-    self_intersecting, ///< winds more than once around some points, or both ways
+    complex, ///< has holes (by coincident edges or several rings) or corners that touch, but covers each
+             ///< point once
+    self_intersecting, ///< winds more than once around some points, or in both directions
     degenerate,        ///< without area
 };
 inline constexpr int kinds = 7;
@@ -133,40 +134,42 @@ inline constexpr int kinds = 7;
 enum class PointLocation { outside, inside, on_edge, on_vertex };
 [[nodiscard]] const char* to_string(PointLocation place);
 
-/// Crossing rule: a ray to the right crosses an odd number of edges; of each edge the lower end counts and
-/// the upper does not, so that shared ends count once. Holes are holes whatever their orientation. Exact.
+/// Crossing rule: a point is inside if a ray to the right crosses an odd number of edges. Edges include
+/// their lower end but not their upper end, so that shared ends count once. Holes may have any orientation.
+/// Exact.
 [[nodiscard]] PointLocation locate(const Vec2& p, Rings rings);
 [[nodiscard]] PointLocation locate(const Vec2& p, Ring ring);
 
-/// For a convex ring: on one side of all its edges. Exact.
+/// For a convex ring: a point is inside if it is on the same side of all edges. Exact.
 [[nodiscard]] PointLocation locate_convex(const Vec2& p, Ring convex);
 
-/// The sum of the angles that the edges subtend at p: 2 pi times how often the ring goes round p. p is not on
-/// the ring.
+/// The sum of the angles that the edges subtend at p: 2 pi times the winding number. p must not be on the
+/// ring.
 [[nodiscard]] double angle_sum(const Vec2& p, Ring ring);
-/// By the sum over all rings (holes by orientation or by coincident edges); p is on none of them.
+/// Decides by the angle sum over all rings (holes by orientation or by coincident edges). p must not be on a
+/// ring.
 bool inside_by_angles(const Vec2& p, Rings rings);
 
-/// The sum of the unsigned angles between neighbouring corners seen from q: 2 pi only when q is in the plane
-/// of a convex polygon and inside it, less the farther away.
+/// The sum of the unsigned angles between neighbouring corners seen from q. It is 2 pi only if q is in the
+/// plane of a convex polygon and inside it, and decreases with the distance.
 [[nodiscard]] double angle_sum(const Vec3& q, std::span<const Vec3> convex);
-/// On the polygon, as far as the angles tell: the sum falls short of 2 pi by at most tolerance (radians). A
-/// corner is inside.
+/// Whether q is on the polygon by angles: the sum is at most `tolerance` (radians) less than 2 pi. A corner
+/// is inside.
 bool inside_by_angles(const Vec3& q, std::span<const Vec3> convex, double tolerance = 1e-9);
 
 // --- Lines
 
 enum class Keep { inside, outside };
 
-/// A part of a line from a to b, by parameter: 0 at a, 1 at b.
+/// A part of a line from a to b, as parameters: 0 at a, 1 at b.
 struct Interval {
     double from = 0, to = 1;
     bool operator==(const Interval&) const = default;
 };
 
-/// The parts of the segment inside (or outside) a polygon with holes, ascending: the crossings of the whole
-/// line, sorted, pair up from its far end, so that nothing need be known of where a lies. Sides are exact,
-/// and a corner on the line counts as left of it, so the crossings are always even in number.
+/// The parts of the segment inside (or outside) a polygon with holes, ascending. The sorted crossings of the
+/// whole line pair up, so the location of `a` need not be known. Sides are exact, and a corner on the line
+/// counts as left of it, so the number of crossings is always even.
 [[nodiscard]] std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings,
                                               Keep keep = Keep::inside);
 
@@ -175,14 +178,15 @@ struct Segment {
 };
 
 struct HatchSettings {
-    double spacing = 1;          ///< between lines, above zero
+    double spacing = 1;          ///< distance between lines, above zero
     Vec2 direction{1, 0};        ///< unit vector along the lines
-    Keep keep = Keep::inside;    ///< outside: in the bounds of the rings, widened by one spacing
-    std::size_t limit = 1000000; ///< lines at most
+    Keep keep = Keep::inside;    ///< outside: within the bounds of the rings, enlarged by one spacing
+    std::size_t limit = 1000000; ///< maximum number of lines
 };
 
-/// Parallel lines clipped to the polygon with holes, every other one running back. They pass through
-/// multiples of spacing from the origin, so that neighbouring sections match. Throws limit (E-HATCH).
+/// Parallel lines clipped to the polygon with holes; every other line runs backward. Their distances from
+/// the origin are multiples of the spacing, so that neighbouring sections match. Throws a limit error
+/// (E-HATCH).
 [[nodiscard]] std::vector<Segment> hatch(Rings rings, const HatchSettings& settings);
 
 } // namespace polygon

@@ -1,24 +1,24 @@
 #pragma once
 // A tree of boxes over the edges of rings, in their order. Neighbours along a ring are neighbours in the
-// tree, so one pass builds it, and searches for near edges are still fast.
+// tree, so a single pass builds the tree, and searches for near edges are still fast.
 
 #include "base/math/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
 
 namespace facetmill::polygon {
 
-/// The side of the line a b on which c lies, exactly: 1 on its left, -1 on its right, 0 on it.
+/// The exact side of the line a b that contains c: 1 left, -1 right, 0 on the line.
 [[nodiscard]] inline int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
     return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
 
-/// An edge, its ring, and the numbers of its neighbours along that.
+/// An edge, its ring, and the numbers of its neighbours in the ring.
 struct RingEdge {
     Vec2 a, b;
     Index ring = 0, next = 0, previous = 0;
 };
 
-/// The edges of the rings, one after the other.
+/// The edges of the rings, ring by ring.
 [[nodiscard]] std::vector<RingEdge> ring_edges(Rings rings);
 
 class RingTree {
@@ -55,10 +55,10 @@ class RingTree {
     void query(const Bounds& box, Visit&& visit) const {
         if (!edges_.empty()) query(1, 0, leaves_, box, visit);
     }
-    /// Calls visit(edge number) for edges whose boxes meet the ray from a point to the left, ascending, until
-    /// it returns false. It visits the edges that reach above or below the point and some others. Returns
-    /// whether an odd number of the unvisited edges, all on the left, pass the point's height; on it counts
-    /// as below it. Takes logarithmic time plus the time of the visits.
+    /// Calls visit(edge number) for edges whose boxes meet the ray from a point to the left, ascending,
+    /// until it returns false. It visits the edges that reach above or below the point and some others.
+    /// Returns whether an odd number of the unvisited edges, which are all on the left, pass the point's
+    /// height. An end at this height counts as below it. Takes logarithmic time plus the time of the visits.
     template <class Visit>
     bool odd_on_left(const Vec2& p, Visit&& visit) const {
         bool odd = false;
@@ -98,8 +98,8 @@ class RingTree {
                 return false;
         return true;
     }
-    /// Whether an odd number of the edges below a node pass a height: along a ring all that matters is where
-    /// they begin and end.
+    /// Whether an odd number of the edges below a node pass a height. Only the beginning and end of each
+    /// chain of edges matter.
     bool odd_pass(std::size_t first, std::size_t width, double height) const {
         const auto is_below = [&](const Vec2& p) { return p.y <= height; };
         const Edge &begin = edges_[first * leaf_size],
@@ -112,9 +112,9 @@ class RingTree {
 
     static constexpr std::size_t leaf_size = 4;
     std::vector<Edge> edges_;
-    std::vector<Index> ring_begins_; ///< [rings] into edges_
+    std::vector<Index> ring_begins_; ///< [rings] first edge, an index into edges_
     std::vector<Bounds> nodes_;      ///< a heap: the children of i are 2i and 2i + 1
-    std::size_t leaves_ = 1;         ///< a power of two
+    std::size_t leaves_ = 1;         ///< number of leaves, a power of two
 };
 
 } // namespace facetmill::polygon

@@ -19,7 +19,7 @@ Contours contours_of(Rings rings) {
     return contours;
 }
 
-/// Turns a triangle the right way round, its lowest corner first; true when it was clockwise.
+/// Makes a triangle anticlockwise, with its lowest corner first. True if it was clockwise.
 bool turn_left(std::array<Index, 3>& t, const std::vector<Vec2>& points) {
     const Vec2 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
     const bool clockwise = orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y) < 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Polygons with holes, and any other set of rings, into triangles with their winding numbers: constrained
-// Delaunay by CGAL, behind a header without it.
+// Triangulates polygons with holes, and any other sets of rings, and gives winding numbers. CGAL makes a
+// constrained Delaunay triangulation; this header does not include it.
 
 #include "geometry/polygon/polygon.hpp"
 
@@ -9,36 +9,37 @@
 
 namespace facetmill::polygon {
 
-/// A point where edges cross that is no corner of a ring.
+/// A point where edges cross that is not a corner of a ring.
 struct AddedPoint {
-    Vec2 at;        ///< rounded to doubles; triangles around it may be off by that rounding
-    Index edge = 0; ///< the first edge through it: number of its first corner, counted through all rings
-    double t = 0;   ///< how far along it: 0 at its first corner, 1 at its second
+    Vec2 at; ///< rounded to doubles; triangles around it may be off by that rounding
+    Index edge =
+        0; ///< the first edge through the point: the number of its first corner, counted through all rings
+    double t = 0; ///< position along this edge: 0 at its first corner, 1 at its second
 };
 
-/// Triangles that cover all the rings wind around, none twice.
+/// Triangles that cover each point that the rings wind around once.
 struct Triangulation {
     std::vector<std::array<Index, 3>>
-        triangles; ///< anticlockwise; corners counted through all rings, then added points; coincident
-                   ///< corners are represented by the first of them
-    std::vector<int> winding; ///< [triangles] how often the rings go round it; never 0
+        triangles; ///< anticlockwise; corners are numbered through all rings, then the added points; the
+                   ///< first of coincident corners represents them
+    std::vector<int> winding; ///< [triangles] winding number of the rings; never 0
     std::vector<AddedPoint> added;
 };
 
-/// Rings may touch, overlap and cross; corners may coincide. Exact predicates; where edges cross, exact
-/// constructions too. Any fill rule is a choice of windings: odd ones, all, the positive. Rings without area
-/// give no triangles.
+/// Rings may touch, overlap and cross; corners may coincide. Uses exact predicates, and exact constructions
+/// where edges cross. Callers select by winding for their fill rule: odd, all or positive. Rings without
+/// area give no triangles.
 [[nodiscard]] Triangulation triangulate_rings(Rings rings);
 
-/// The least and the largest winding number of any point that is not on the rings; 0 is always among them.
-/// Exact.
+/// The smallest and the largest winding number of any point off the rings. Far away it is 0, so 0 is always
+/// in the range. Exact.
 struct WindingRange {
     int min = 0, max = 0;
 };
 [[nodiscard]] WindingRange winding_range(Rings rings);
 
-/// Of what a ring that may cross itself winds around, each point counted once, however often and whichever
-/// way (nonzero rule). None when that has no area.
+/// The moments of the region that a ring winds around, each point counted once (nonzero rule). The ring may
+/// cross itself. None if the region has no area.
 [[nodiscard]] std::optional<Moments> moments_by_winding(Ring ring);
 
 } // namespace facetmill::polygon

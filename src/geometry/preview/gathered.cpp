@@ -40,12 +40,14 @@ PreviewAttributes preview_attributes(const Scene& scene, const ResolvedMaterials
 struct Gatherer::Placed {
     const Mesh& mesh;
     const Transform& to_world;
-    Transform normals; ///< world to part: pull_normal takes the part's to the world
+    Transform
+        normals; ///< from the world to the part; pull_normal with it converts the part's normals to the world
     const Attribute *colours, *own_normals;
-    std::vector<Index> vertices, wedges; ///< [of the mesh] where it went, or none
-    std::vector<Index> primitives;       ///< [of the mesh, of other faces and of caps] likewise
-    std::vector<Index> wedge_primitive;  ///< [wedges] that it went with
-    std::vector<std::uint8_t> is_cap;    ///< [faces], or empty
+    std::vector<Index> vertices, wedges; ///< [the mesh's vertices, wedges] number in the result, or none
+    std::vector<Index>
+        primitives; ///< [the mesh's primitives, for other faces and for caps] number in the result, or none
+    std::vector<Index> wedge_primitive; ///< [wedges] primitive in the result
+    std::vector<std::uint8_t> is_cap;   ///< [faces] 1 for caps; or empty
 
     Placed(const Mesh& m, const Transform& t, const std::optional<Index>& last_cap)
         : mesh(m), to_world(t), normals(inverse(t).value_or(Transform{})), colours(colours_in(m)),

@@ -1,5 +1,5 @@
 #pragma once
-// All parts of a scene as one mesh in world space.
+// Gathers all parts of a scene into a single mesh in world space.
 
 #include "geometry/preview/preview.hpp"
 
@@ -10,19 +10,19 @@ namespace facetmill {
 /// The attributes of a scene that a preview keeps.
 struct PreviewAttributes {
     bool normals = false, colours = false, textures = false;
-    bool baked = false;              ///< base textures as colours, sampled at each wedge
-    std::optional<Index> last_cap{}; ///< PreviewSettings::last_cap
+    bool baked = false;              ///< base textures become colours, sampled at each wedge
+    std::optional<Index> last_cap{}; ///< see PreviewSettings::last_cap
 };
 /// The colours of a mesh, or null.
 [[nodiscard]] const Attribute* colours_in(const Mesh& mesh);
 [[nodiscard]] PreviewAttributes preview_attributes(const Scene& scene, const ResolvedMaterials* materials);
 
-/// Takes triangles, part by part, into one mesh.
+/// Collects triangles, part by part, in a single mesh.
 class Gatherer {
   public:
     Gatherer(const Scene& scene, const ResolvedMaterials* materials, PreviewAttributes wanted);
-    /// Triangles of a mesh of triangles that stands there, by their corners, three each: whose vertices and
-    /// attributes they have. Those with a point that is not finite are left out.
+    /// Adds triangles of a triangle mesh with this transform. corners: three corners of the mesh per
+    /// triangle, from which vertices and attributes come. Skips triangles with points that are not finite.
     void add(const Mesh& triangles, const Transform& to_world, std::span<const Index> corners);
     Preview finish();
 

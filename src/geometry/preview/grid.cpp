@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// Keys of 63 bits, numbered as they are met.
+/// Numbers 63-bit keys in the order of their first occurrence.
 class Numbers {
   public:
     Index of(std::uint64_t key) {
@@ -60,7 +60,7 @@ class Cells {
         edge_ = std::max({edge, size.x / most, size.y / most, size.z / most});
     }
 
-    /// The key of the cell of a finite point, and how far it is from the cell's centre, squared, in cells.
+    /// The key of the cell of a finite point, and its squared distance from the cell's centre, in cells.
     std::pair<std::uint64_t, double> place(const Vec3& p) const {
         std::uint64_t key = 0;
         double off = 0;
@@ -90,19 +90,20 @@ struct HashOfThree {
     }
 };
 
-/// The same triangle begins with its lowest number.
+/// The same triangle, rotated so that its lowest number is first.
 std::array<Index, 3> turned(std::array<Index, 3> t) {
     while (t[0] > t[1] || t[0] > t[2]) t = {t[1], t[2], t[0]};
     return t;
 }
 
-/// Where a vertex lies.
+/// The cell of a vertex.
 struct InCell {
-    Index cell;       ///< its number; none: the vertex is not finite
-    float off_centre; ///< squared, in cells
+    Index cell;       ///< the number of the cell; none if the vertex is not finite
+    float off_centre; ///< squared distance from the centre, in cells
 };
 
-/// [vertices] by their positions. All threads compute the keys of a block, and one thread numbers them.
+/// [vertices] The cells by position. All threads compute the keys of a block, and a single thread numbers
+/// them.
 template <class Place>
 std::vector<InCell> in_cells(std::size_t vertices, const Place& place, const Cells& cells, Numbers& numbers) {
     constexpr std::size_t block = std::size_t{1} << 16;
@@ -134,9 +135,9 @@ std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_w
         float off_centre = HUGE_VALF;
     };
     std::vector<Nearest> nearest(numbers.count());
-    std::vector<Index> out; // cells, then a corner of each
+    std::vector<Index> out; // cells, then a corner for each
     std::unordered_set<std::array<Index, 3>, HashOfThree> met;
-    constexpr Index ahead = 48; // corners: they are anywhere in a large mesh
+    constexpr Index ahead = 48; // corners to prefetch ahead, because they may be anywhere in a large mesh
     for (Index c = 0; c + 2 < triangles.corner_count(); c += 3) {
         std::array<Index, 3> t{};
         for (Index k = 0; k < 3; ++k) {

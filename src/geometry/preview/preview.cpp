@@ -16,9 +16,9 @@ namespace facetmill {
 
 namespace {
 
-/// Scenes with so many times the requested triangles go through a grid first, which costs a tenth of their
-/// simplification. The grid would tear textures, so scenes with textures have a higher limit, and their
-/// textures become colours.
+/// Scenes with this multiple of the requested triangles go through a grid first, which takes a tenth of the
+/// time of simplification. The grid would tear textures, so scenes with textures have a higher limit, and
+/// their textures become colours.
 constexpr std::size_t many = 2, many_with_textures = 20;
 
 std::size_t triangles_in(const Mesh& mesh) {
@@ -28,7 +28,7 @@ std::size_t triangles_in(const Mesh& mesh) {
     return sum;
 }
 
-/// The area of a mesh in the world; of a large one about so, from one face in seven.
+/// The area of a mesh in the world. For a large mesh, estimated from every seventh face.
 double area_of(const Mesh& mesh, const Transform& to_world) {
     constexpr std::size_t large = 100000, of_large = 7;
     const std::size_t step = mesh.face_count() > large ? of_large : 1;
@@ -51,11 +51,11 @@ double area_of(const Mesh& mesh, const Transform& to_world) {
                [](double a, double b) { return a + b; });
 }
 
-/// The edge of cells of which the surface meets about so many.
+/// The size of cells so that the surface meets about this many.
 double cell_edge(const Scene& scene, std::size_t cells) {
     double area = 0;
     for (const Part& part : scene.parts) area += area_of(part.mesh, part.transform);
-    constexpr double met = 1.6; // cells that a plane meets, on the average, for each of its own size
+    constexpr double met = 1.6; // average number of cells that a plane meets, per cell-sized area
     return std::sqrt(met * area / static_cast<double>(cells));
 }
 
@@ -71,7 +71,7 @@ Mesh with_corners(Mesh mesh, const std::vector<Index>& corners) {
     return mesh;
 }
 
-/// Corners of so many faces at most.
+/// The corners of every n-th face, at most this many faces.
 std::vector<Index> every_nth_face(const Mesh& mesh, std::size_t faces) {
     const std::size_t step = (mesh.face_count() + faces - 1) / faces;
     std::vector<Index> corners;
@@ -80,7 +80,7 @@ std::vector<Index> every_nth_face(const Mesh& mesh, std::size_t faces) {
     return corners;
 }
 
-/// Every n-th component, so that about so many faces are left where components are small.
+/// Keeps every n-th component, so that about this many faces are left if components are small.
 Mesh without_some_components(Mesh mesh, std::size_t faces) {
     const Components components = face_components(mesh);
     const std::size_t step = (mesh.face_count() + faces - 1) / faces;
@@ -92,7 +92,7 @@ Mesh without_some_components(Mesh mesh, std::size_t faces) {
     return with_corners(std::move(mesh), corners);
 }
 
-/// The mesh simplified to at most about so many triangles, with a subset of its vertices.
+/// The mesh simplified to at most about this many triangles, with a subset of its vertices.
 Mesh reduced(Mesh mesh, std::size_t faces) {
     SimplifySettings settings;
     settings.method = SimplifySettings::Method::quadric_endpoints;
@@ -100,7 +100,7 @@ Mesh reduced(Mesh mesh, std::size_t faces) {
     mesh = simplify(std::move(mesh), settings).mesh;
     const std::size_t enough = faces + faces / 4;
     if (mesh.face_count() > enough) mesh = without_some_components(std::move(mesh), faces);
-    // A surface that is nowhere manifold: nothing is left that may be collapsed.
+    // The surface is nowhere manifold, so no edge may be collapsed.
     double cell = std::sqrt(area_of(mesh, {}) / static_cast<double>(faces));
     while (mesh.face_count() > enough) {
         auto corners = corners_in_cells(mesh, {}, cell);
@@ -111,8 +111,8 @@ Mesh reduced(Mesh mesh, std::size_t faces) {
     return mesh;
 }
 
-/// The parts as one mesh: all of their triangles, or, with a cell, those between the vertices that a grid
-/// leaves.
+/// The parts as a single mesh: all of their triangles or, with a cell size, the triangles between the
+/// vertices that a grid leaves.
 Preview gathered(const Scene& scene, const ResolvedMaterials* materials, const PreviewAttributes& wanted,
                  std::optional<double> cell) {
     Gatherer gatherer(scene, materials, wanted);
@@ -133,7 +133,7 @@ Preview gathered(const Scene& scene, const ResolvedMaterials* materials, const P
     return gatherer.finish();
 }
 
-/// A preview of the faces alone.
+/// A preview of only the faces.
 Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     std::size_t faces = 0;
     for (const Part& part : scene.parts) faces += triangles_in(part.mesh);
@@ -145,7 +145,8 @@ Preview surface_preview(const Scene& scene, const PreviewSettings& settings) {
     if (wanted.baked) wanted.textures = false;
     std::optional<double> cell;
     if (!wanted.textures && faces > many * settings.faces)
-        cell = cell_edge(scene, settings.faces * 3 / 4); // almost two triangles for each cell that is met
+        cell = cell_edge(scene,
+                         settings.faces * 3 / 4); // a cell that the surface meets gives almost two triangles
     Preview out = gathered(scene, materials, wanted, cell);
     // A surface of components smaller than a cell has no triangles between cells.
     if (cell && out.mesh.face_count() < settings.faces / 4) out = gathered(scene, materials, wanted, {});

@@ -10,7 +10,7 @@ namespace facetmill {
 
 namespace {
 
-/// Asks points that follow each other in space.
+/// Queries points that are near each other in sequence.
 class Walk {
   public:
     Walk(const FaceTree& tree, const PointSettings& settings) : tree_(tree), settings_(settings) {}
@@ -18,12 +18,12 @@ class Walk {
     PointAnswer next(const Vec3& p) {
         PointAnswer a;
         a.closest = closest_point(tree_, p, hint_);
-        if (a.closest.face == none) { // no surface, or no such point
+        if (a.closest.face == none) { // no surface, or an invalid point
             a.side = settings_.closed && is_finite(p) ? Side::outside : Side::unknown;
             return a;
         }
         hint_ = a.closest.triangle;
-        // A point exactly on the surface is closer than the rounding of distances can say.
+        // The distance of a point on the surface is at most this large, because of rounding.
         const double near = 1e-12 / tree_.scale;
         if (a.closest.distance <= settings_.tolerance || (a.closest.distance <= near && lies_on(tree_, p))) {
             a.side = Side::on;
@@ -40,7 +40,8 @@ class Walk {
     /// winding number of the previous point if either's ball contains the other. Otherwise the segment
     /// between them is tested.
     int winding_at(const Vec3& p, double distance) {
-        const double step = length(p - last_.point), sure = 0.999; // far more than distances are rounded by
+        const double step = length(p - last_.point),
+                     sure = 0.999;                     // a margin far above the rounding of distances
         if (!last_.known || !(step * tree_.scale < 4)) // a long way outside gives little information
             last_.winding = winding(tree_, p);
         else if (!(step < sure * std::max(distance, last_.distance)))

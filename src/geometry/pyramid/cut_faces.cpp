@@ -48,9 +48,9 @@ class FaceSetCutter {
         return at;
     }
 
-    /// The numbers of leaves of up to four children of a node with so many leaves, about as many in each. A
-    /// tree of n leaves whose nodes all have four children has (n - 1) / 3 nodes. All numbers except the last
-    /// are 1 more than a multiple of 3, so no tree has fewer nodes.
+    /// The numbers of leaves of up to four children of a node with this many leaves, about equal. A tree of
+    /// n leaves whose nodes all have four children has (n - 1) / 3 nodes. All numbers except the last are 1
+    /// more than a multiple of 3, so no tree has fewer nodes.
     static std::vector<std::size_t> leaves_of_children(std::size_t leaves) {
         if (leaves <= most_children) return std::vector<std::size_t>(leaves, 1);
         std::vector<std::size_t> children;
@@ -63,7 +63,7 @@ class FaceSetCutter {
         return children;
     }
 
-    /// The faces in parts for so many leaves each: halved along the longest side, by those.
+    /// Divides the faces into parts for these numbers of leaves, by halving along the longest side.
     std::vector<Faces> parts_of(Faces faces, std::span<const std::size_t> leaves) {
         if (leaves.size() == 1) return {faces};
         const std::size_t first = (leaves.size() + 1) / 2;

@@ -17,21 +17,21 @@ namespace facetmill {
 
 namespace {
 
-/// Triangles for each vertex that is held, since those need some of their own.
+/// Extra triangles for each held vertex, because held vertices need their own triangles.
 constexpr std::size_t faces_of_held = 3;
-/// Beyond so many times its target a tile is simplified without regard to topology.
+/// A tile beyond this multiple of its target is simplified without keeping topology.
 constexpr std::size_t too_large = 2;
 
 /// A tile with the numbers of its vertices in the whole mesh; `none` for vertices of this tile alone.
 struct TilePiece {
     Mesh mesh;
-    std::vector<Index> numbers; ///< [vertices]
+    std::vector<Index> numbers; ///< [vertices] numbers in the whole mesh
 };
 
 /// The first and the last leaf with a vertex at each vertex position.
 struct LeavesOfPlaces {
     std::vector<Index> place;       ///< [vertices] the lowest coincident vertex
-    std::vector<Index> first, last; ///< [vertices] of those
+    std::vector<Index> first, last; ///< [vertices] first and last leaf, for the lowest coincident vertex
 
     LeavesOfPlaces(const Mesh& mesh, const std::vector<Index>& leaf_of_face) : place(lowest_at_place(mesh)) {
         first.assign(mesh.vertex_count(), none);
@@ -50,7 +50,7 @@ struct LeavesOfPlaces {
     }
 };
 
-/// One mesh per leaf, with the numbers of its vertices.
+/// A mesh per leaf, with the numbers of its vertices.
 std::vector<TilePiece> pieces_of(const Mesh& mesh, const std::vector<Index>& leaf_of_face,
                                  std::size_t leaves) {
     constexpr const char* number = "number in the pyramid";
@@ -69,7 +69,7 @@ std::vector<TilePiece> pieces_of(const Mesh& mesh, const std::vector<Index>& lea
     return pieces;
 }
 
-/// Merges pieces: vertices of the same number are merged, and so are their equal wedges.
+/// Merges pieces: merges vertices with the same number, and their equal wedges.
 TilePiece joined(const std::vector<const TilePiece*>& pieces) {
     TilePiece all;
     for (const TilePiece* piece : pieces) {
@@ -171,10 +171,10 @@ class PyramidMaker {
     }
 
     PyramidSettings settings_;
-    const std::vector<std::uint8_t>& held_; ///< [vertices] by others, or empty
+    const std::vector<std::uint8_t>& held_; ///< [vertices] 1 if held for other meshes; may be empty
     FaceCuts cuts_;
     std::vector<PyramidTile> tiles_;
-    std::vector<TilePiece> pieces_; ///< [tiles]
+    std::vector<TilePiece> pieces_; ///< [tiles] pieces
     LeavesOfPlaces leaves_;
 };
 

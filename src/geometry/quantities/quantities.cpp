@@ -63,13 +63,13 @@ struct OfProperty {
     std::vector<std::string_view> other_names;
 };
 
-/// Details that the rows of properties lack.
+/// Details that are missing in the rows of properties.
 const std::vector<OfProperty>& of_properties() {
     static const std::vector<OfProperty> all{
         {"min_angle", "", {"smallest_angle", "minimum_angle"}},
         {"max_angle", "", {"largest_angle", "maximum_angle"}},
-        {"aspect_ratio", "of faces without area", {"aspect"}},
-        {"wall_thickness", "where no face lies behind", {"thickness", "wall"}},
+        {"aspect_ratio", "for faces without area", {"aspect"}},
+        {"wall_thickness", "if no face is behind the face", {"thickness", "wall"}},
     };
     return all;
 }
@@ -86,8 +86,8 @@ std::vector<Quantity> all_quantities() {
             }
         all.push_back(std::move(q));
     }
-    all.push_back({.name = "area", .measure = Measure::area, .help = "Its area.", .of = areas});
-    constexpr std::string_view rims = "on boundaries and where the surface is no manifold";
+    all.push_back({.name = "area", .measure = Measure::area, .help = "The area of the face.", .of = areas});
+    constexpr std::string_view rims = "at boundary vertices and non-manifold vertices";
     all.push_back({.name = "mean_curvature",
                    .domain = Domain::vertex,
                    .measure = Measure::per_length,
@@ -107,9 +107,9 @@ std::vector<Quantity> all_quantities() {
     all.push_back({.name = "deviation",
                    .domain = Domain::vertex,
                    .measure = Measure::length,
-                   .help = "The distance from the nearest point of another surface (with, or the scene as "
-                           "loaded), negative inside: behind the face there.",
-                   .missing = "where the other surface is empty",
+                   .help = "The distance to the nearest point of another surface (with, or the scene as "
+                           "loaded). Negative inside, which means behind the nearest face.",
+                   .missing = "if the other surface is empty",
                    .other_names = {"distance", "signed_distance"},
                    .is_signed = true,
                    .compares = true,
@@ -172,7 +172,8 @@ std::string unit_of(const Quantity& quantity, Unit unit) {
 std::vector<double> values_of(const Quantity& quantity, const Part& part, const FaceTree* other) {
     const Mesh world = in_world(part);
     std::vector<double> values = quantity.of(quantity, world, other);
-    values.resize(world.count(quantity.domain), not_there); // curvature has vertices of faces that cross
+    values.resize(world.count(quantity.domain),
+                  not_there); // curvature also has values at vertices where faces cross
     for (double& x : values)
         if (!std::isfinite(x)) x = not_there;
     return values;

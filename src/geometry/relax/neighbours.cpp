@@ -16,8 +16,9 @@ namespace {
 
 /// The other ends of the feature edges at each vertex, ascending. An edge is a feature if the normals of its
 /// two faces differ by more than the angle (radians, in world space). The faces' directions are compared
-/// along the edge, so neighbours with opposite orientation make no feature edge. An edge of more than two
-/// faces is a feature; with boundaries, an edge of a single face too. Faces without area make none.
+/// along the edge, so neighbours with opposite orientation make no feature edge. An edge with more than two
+/// faces is a feature; with `boundaries`, an edge with a single face too. Faces without area make no
+/// features.
 VertexLists feature_ends(const Mesh& mesh, double angle, const Transform& to_world, bool boundaries) {
     const EdgeTable table = build_edges(mesh);
     const std::vector<Index> faces = corner_faces(mesh);
@@ -58,7 +59,7 @@ VertexLists feature_ends(const Mesh& mesh, double angle, const Transform& to_wor
 
 using Settings = RelaxSettings;
 
-/// A corner as its vertex sees it.
+/// A corner, seen from its vertex.
 struct Corner {
     Index vertex, next, previous, face;
 };
@@ -73,8 +74,8 @@ void sort_few(std::vector<Index>& items) {
     }
 }
 
-/// Whether both lists have the same items, each once, in any order. Compares all with all: for the few
-/// neighbours of a vertex that is faster than sorting, because nothing is guessed.
+/// Whether both lists have the same items, each once, in any order. Compares all pairs: for the few
+/// neighbours of a vertex, this is faster than sorting, because branches are predictable.
 bool same_once(const std::vector<Index>& a, const std::vector<Index>& b) {
     const std::size_t n = a.size();
     if (b.size() != n || n > 24) return false;
@@ -87,7 +88,8 @@ bool same_once(const std::vector<Index>& a, const std::vector<Index>& b) {
     return matches == n && repeated == 2 * n;
 }
 
-/// Buffers of one thread for the surroundings of a vertex; reused, so that no memory is allocated per vertex.
+/// A thread's buffers for the surroundings of a vertex. They are reused, so that no memory is allocated per
+/// vertex.
 struct Surroundings {
     std::vector<Index> next, previous; ///< the other ends of the two edges of each corner
     std::vector<Index> all;            ///< the neighbours, each once
@@ -104,7 +106,7 @@ struct Surroundings {
             if (c.previous != c.vertex) previous.push_back(c.previous);
             polygons = polygons || (whole_faces && mesh.face_size(c.face) > 3);
         }
-        // If faces go round the vertex, each neighbour is once the next and once the previous.
+        // If faces go round the vertex, each neighbour occurs once in `next` and once in `previous`.
         if (same_once(next, previous))
             all = next;
         else
@@ -113,7 +115,8 @@ struct Surroundings {
     }
 
   private:
-    /// The union of next and previous; a neighbour that is in them once in all ends a boundary edge.
+    /// Builds the union of next and previous. A neighbour that occurs only once in both is at the end of a
+    /// boundary edge.
     void walk() {
         sort_few(next);
         sort_few(previous);
@@ -176,8 +179,8 @@ void around_vertices(const Mesh& mesh, bool whole_faces, Buckets<Corner>& bucket
         buckets.at_once());
 }
 
-/// In a polygon of n corners every vertex has n - 1 neighbours: refuses such polygons in advance if the lists
-/// would not fit.
+/// In a polygon with n corners, every vertex has n - 1 neighbours. Refuses such polygons in advance if the
+/// lists would not fit.
 void refuse_giants(const Mesh& mesh, const Settings& settings) {
     if (mesh.all_triangles() || settings.neighbours == Settings::Neighbours::edges) return;
     const auto pairs = parallel_reduce(
@@ -198,7 +201,7 @@ void refuse_giants(const Mesh& mesh, const Settings& settings) {
                     "use neighbours: edges, or triangulate first");
 }
 
-/// Which of its neighbours a vertex moves towards.
+/// Chooses the neighbours that a vertex moves towards.
 class NeighbourChoice {
   public:
     NeighbourChoice(const Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {

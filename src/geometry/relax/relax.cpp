@@ -28,14 +28,14 @@ struct Need {
 Need need_of_lambda(const Settings& s) {
     const double f = relax_lambda(s);
     if (s.method == Method::implicit) return {f > 0 && f <= 1e6, "lambda", "0 < x <= 1e+06 for implicit", f};
-    if (s.method ==
-        Method::taubin) // otherwise the step out would amplify frequencies that the step in has inverted
+    if (s.method == Method::taubin) // otherwise the outward step would amplify frequencies that the inward
+                                    // step has inverted
         return {f > 0 && f < 0.7, "lambda", "0 < x < 0.7 for taubin", f};
     return {f > 0 && f <= 1, "lambda", "0 < x <= 1", f};
 }
 
-// Relative to the area after the first iteration: below this, the surface shrinks rather than getting
-// smoother.
+// The smallest area relative to the first iteration. Below this, the surface only shrinks and no longer
+// becomes smoother.
 constexpr double least_area_left = 2.0 / 3;
 
 /// Twice the area of the mesh with its vertices at `places`, in world units.
@@ -54,7 +54,7 @@ double twice_area(const Mesh& mesh, const std::vector<Vec3>& places, const Trans
         [](double a, double b) { return a + b; });
 }
 
-/// The positions after at most so many iterations.
+/// The positions after at most this many iterations.
 struct Run {
     std::vector<Vec3> places;
     std::int64_t iterations = 0;
@@ -83,7 +83,7 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         run.shrank = area < first_area * least_area_left;
         run.settled = run.last_move <= until && !run.shrank;
     }
-    if (run.shrank) { // the one before the last
+    if (run.shrank) { // the iteration before the last
         run.places.swap(last);
         --run.iterations;
     }

@@ -14,8 +14,8 @@ namespace {
 
 using Method = RelaxSettings::Method;
 
-/// hc: takes the laplacian step from q to p back in part. The push back mixes the vertex's own difference
-/// from its target position and the mean difference of its neighbours.
+/// hc: partly reverses the laplacian step from q to p. The pull-back mixes the vertex's own difference from
+/// its target position with the mean difference of its neighbours.
 RelaxStep hc_step(const Neighbourhoods& near, const RelaxSettings& settings, const std::vector<Vec3>& start) {
     auto difference = std::make_shared<std::vector<Vec3>>(start.size());
     return [&, difference](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
@@ -93,9 +93,9 @@ RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSe
 
 namespace {
 
-/// Triangles of the faces, the corners at each vertex, and a weight for each corner.
+/// The triangles of the faces, the corners at each vertex, and a weight for each corner.
 struct Cotangents {
-    std::vector<Index> corners; ///< vertices, three to a triangle
+    std::vector<Index> corners; ///< vertices, three per triangle
     VertexLists at;             ///< corners at each vertex
     std::vector<double> weights;
 
@@ -168,8 +168,8 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// The unknown vertices of one linear system; all others count as known. Symmetric and positive definite:
-/// with n neighbours, mask w and lambda f the row of vertex v is n / w (x - p) + f sum(x - xj) = 0.
+/// The unknown vertices of a linear system; all others are known. Symmetric and positive definite: with n
+/// neighbours, mask w and lambda f the row of vertex v is n / w (x - p) + f sum(x - xj) = 0.
 class System {
   public:
     System(const VertexLists& near, std::vector<Index> unknown, double lambda,
@@ -180,7 +180,8 @@ class System {
         fill();
     }
 
-    /// Solves for the unknown, all else as it is in `places`; start is where they are before.
+    /// Solves for the unknown positions; `places` has the known positions. start: the positions before the
+    /// step.
     void solve(const std::vector<Vec3>& start, std::vector<Vec3>& places) const {
         if (unknown_.empty()) return;
         Eigen::VectorXd solution[3];
@@ -243,7 +244,7 @@ class System {
 } // namespace
 
 RelaxStep implicit_step(const Neighbourhoods& near, const RelaxSettings& settings) {
-    std::vector<Index> curves, surface; // curves do not depend on the surface: they are solved first
+    std::vector<Index> curves, surface; // curves do not depend on the surface, so they are solved first
     for (Index v = 0; v + 1 < near.lists.offsets.size(); ++v) {
         if (near.lists.of(v).empty()) continue;
         (!near.along.empty() && near.along[v] ? curves : surface).push_back(v);

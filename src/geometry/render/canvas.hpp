@@ -1,5 +1,6 @@
 #pragma once
-// Triangles and dots on a z-buffer of samples; each sample keeps the number of the visible triangle or dot.
+// Draws triangles and dots on a z-buffer of samples. Each sample stores the number of the visible triangle
+// or dot.
 
 #include "geometry/render/render.hpp"
 
@@ -16,9 +17,9 @@ using Colour = std::array<float, 3>; ///< linear
 /// The drawing so far. x right, y down, z towards the viewer, all in samples. Threads may draw at the same
 /// time, in any order: each sample shows the nearest element, with the lowest number if depths are equal.
 struct Canvas {
-    static constexpr int samples = 2; ///< a side of each pixel
+    static constexpr int samples = 2; ///< samples along a side of each pixel
 
-    int width, height; ///< samples
+    int width, height; ///< in samples
 
     Canvas(int pixels_wide, int pixels_high)
         : width(samples * pixels_wide), height(samples * pixels_high),
@@ -30,14 +31,14 @@ struct Canvas {
     }
     void put(int x, int y, double z, std::uint32_t number) {
         const auto depth = static_cast<float>(z);
-        if (!(depth > -HUGE_VALF)) return; // NaN too
+        if (!(depth > -HUGE_VALF)) return; // also rejects NaN
         const std::uint64_t mine = packed(depth, number);
         const std::atomic_ref<std::uint64_t> sample(nearest_[at(x, y)]);
         std::uint64_t there = sample.load(std::memory_order_relaxed);
         while (mine > there && !sample.compare_exchange_weak(there, mine, std::memory_order_relaxed)) {
         }
     }
-    /// Whether anything drawn at sample i at that depth or deeper would be hidden.
+    /// Whether anything drawn at sample i at this depth or deeper would be hidden.
     bool hides(std::size_t i, float depth) {
         const std::atomic_ref<std::uint64_t> sample(nearest_[i]);
         return sample.load(std::memory_order_relaxed) >= packed(depth, 0);
@@ -55,14 +56,14 @@ struct Canvas {
     /// Maps depth and number to an ordered integer: nearer is greater, and at equal depth the lower number
     /// is greater.
     static std::uint64_t packed(float depth, std::uint32_t number) {
-        const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0f); // no -0
+        const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0f); // avoids -0
         return std::uint64_t{bits & sign ? ~bits : bits | sign} << 32 | (~number & 0xffffffff);
     }
 
     std::vector<std::uint64_t> nearest_;
 };
 
-/// The samples with centres in a box; the bounds are inclusive.
+/// A range of samples whose centres are in a box. Both bounds are inclusive.
 struct SampleBox {
     int left, right, top, bottom;
 
@@ -89,7 +90,7 @@ struct SampleBox {
     return whole > inside ? whole - 1 : whole;
 }
 
-/// The samples in the bounding box of a triangle, in the rows [first, last) of a canvas of that width. If
+/// The samples in the bounding box of a triangle, in the rows [first, last) of a canvas of this width. If
 /// corners are not finite, the result is arbitrary but in range.
 [[nodiscard]] inline SampleBox samples_around(const Vec3& a, const Vec3& b, const Vec3& c, int first,
                                               int last, int width) {
@@ -106,13 +107,13 @@ struct SampleBox {
 class SamplesAt {
   public:
     SamplesAt() = default;
-    /// The canvas has at most 32,767 samples a side.
+    /// The canvas must have at most 32,767 samples a side.
     SamplesAt(const Vec3& p, const Canvas& canvas)
         : bounds_{short_of(first_sample(p.x, 0, canvas.width)), short_of(first_sample(p.y, 0, canvas.height)),
                   short_of(-last_sample(p.x, -1, canvas.width - 1)),
                   short_of(-last_sample(p.y, -1, canvas.height - 1))} {}
 
-    /// The same as samples_around three points, on the whole canvas.
+    /// Like samples_around for three points, on the whole canvas.
     static SampleBox around(const SamplesAt& a, const SamplesAt& b, const SamplesAt& c) {
         const Bounds least = lesser(lesser(a.bounds_, b.bounds_), c.bounds_);
         return {least[0], -least[2], least[1], -least[3]};
@@ -159,7 +160,7 @@ struct EdgeLine {
 /// A triangle on the canvas, in either orientation.
 struct CanvasTriangle {
     std::array<Vec3, 3> p;
-    std::array<EdgeLine, 3> edges; ///< opposite to each corner
+    std::array<EdgeLine, 3> edges; ///< edges opposite to each corner
     double area;                   ///< twice the area; positive if it appears anticlockwise
 
     explicit CanvasTriangle(const std::array<Vec3, 3>& corners) : p(corners), area(twice_area(p)) {
@@ -187,7 +188,8 @@ struct CanvasTriangle {
     constexpr double far = 0x1p40; // beyond this, rounding may exceed a sample
     double low = box.left, high = box.right;
     for (const EdgeLine& e : t.edges) {
-        const double inside = t.area > 0 ? e.sign * e.dy : -e.sign * e.dy; // above 0: to the right
+        const double inside =
+            t.area > 0 ? e.sign * e.dy : -e.sign * e.dy; // above 0: the inside is to the right
         const double at = e.x + e.dx * (py - e.y) / e.dy - 0.5;
         if (inside == 0 || !(std::abs(e.x) < far && std::abs(at) < far)) continue;
         if (inside > 0)
@@ -199,20 +201,20 @@ struct CanvasTriangle {
             static_cast<int>(std::max(std::floor(high), box.left - 1.0))};
 }
 
-/// Calls visit(x, y, depth) for the samples of the triangle in that box, which samples_around gave. If a back
-/// and a front coincide, the front is visible, because backs are drawn a thousandth of a sample deeper.
-/// front: the outer side is visible.
+/// Calls visit(x, y, depth) for the samples of the triangle in the box from samples_around. If a back and a
+/// front coincide, the front is visible, because backs are drawn a thousandth of a sample deeper. front: the
+/// outer side is visible.
 template <class Visit>
 void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, Visit&& visit) {
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;
     const double nearest = nearest_depth(t.p); // on a sliver, rounding would put samples in front of it
     const EdgeLine &e = t.edges[0], &f = t.edges[1], &g = t.edges[2];
-    const bool wide = box.right - box.left > 16; // in a sliver's box, hardly any samples are inside
+    const bool wide = box.right - box.left > 16; // few samples of a sliver's box are inside the sliver
     for (int y = box.top; y <= box.bottom; ++y) {
         const double py = y + 0.5, ey = e.dx * (py - e.y), fy = f.dx * (py - f.y), gy = g.dx * (py - g.y);
         const auto [left, right] = wide ? row_between(t, py, box) : std::pair(box.left, box.right);
         for (int x = left; x <= right; ++x) {
-            const double px = x + 0.5; // as EdgeLine::of
+            const double px = x + 0.5; // centre of the sample, as in EdgeLine::of
             const double a = e.sign * (e.dy * (px - e.x) - ey);
             if (!(a * side >= 0)) continue;
             const double b = f.sign * (f.dy * (px - f.x) - fy);
@@ -224,7 +226,7 @@ void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, 
     }
 }
 
-/// Draws a square of side pixels around p, cut off at the canvas' borders.
+/// Draws a square with sides of `side` pixels around p, clipped at the canvas' borders.
 inline void draw_dot(const Vec3& p, double side, std::uint32_t number, Canvas& canvas) {
     const double half = side * Canvas::samples / 2;
     const auto bound = [&](double x, int count) {

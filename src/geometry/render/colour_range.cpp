@@ -8,7 +8,7 @@ namespace facetmill {
 
 namespace {
 
-/// The percentile by nearest rank.
+/// The percentile, by the nearest-rank method.
 double percentile_of(std::vector<double>& values, std::size_t percent) {
     const std::size_t rank = (values.size() - 1) * percent / 100;
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -33,7 +33,7 @@ std::vector<double> finite_values(const Scene& scene, const std::string& attribu
     return values;
 }
 
-/// The visible identifiers; empty if a legend has no room for them.
+/// The visible identifiers; empty if the legend has no space for them.
 std::vector<std::uint64_t> few_identifiers(const Scene& scene, const std::string& attribute,
                                            const std::function<bool(const Part&)>& shows) {
     constexpr std::size_t most = 24;
@@ -57,7 +57,7 @@ void leave_outliers_out(std::vector<double>& values, ColourRange::Kind wanted, V
     if (range.diverging) // absolute values, because the range is symmetric
         for (double& x : values) x = std::abs(x);
     const double high = percentile_of(values, 99), low = range.diverging ? -high : percentile_of(values, 1);
-    // Halves, because the span of all doubles overflows.
+    // Uses halves, because the span of all doubles overflows.
     const bool outliers = high / 2 - low / 2 < (range.high / 2 - range.low / 2) / 2;
     if (!(low < high) || (wanted != Kind::percentile && !outliers)) return;
     range.low = low;

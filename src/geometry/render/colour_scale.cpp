@@ -63,7 +63,7 @@ Colour on_the_scale_of(const ValueRange& range, double t) {
 double in_range(double x, const ValueRange& range) {
     if (!std::isfinite(x)) return std::numeric_limits<double>::quiet_NaN();
     if (!(range.low < range.high)) return 0.5;
-    // Halves, because the span of all doubles overflows.
+    // Uses halves, because the span of all doubles overflows.
     return (x / 2 - range.low / 2) / (range.high / 2 - range.low / 2);
 }
 

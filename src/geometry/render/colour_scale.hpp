@@ -9,15 +9,15 @@ namespace facetmill {
 /// A palette of colours that are easy to distinguish; the identifier selects the colour.
 [[nodiscard]] Colour distinct_colour(std::uint64_t number);
 
-/// For missing numbers: pink, which differs from all scales and from inner sides.
+/// The colour of missing numbers: pink, which differs from all scales and from inner sides.
 inline constexpr Colour missing_colour{0.79f, 0.10f, 0.51f};
 
 /// The colour map "viridis" for 0 to 1, perceptually uniform (S. van der Walt and N. Smith, 2015), by M.
-/// Zucker's polynomials. Values beyond get the end colours, and NaN gets missing_colour.
+/// Zucker's polynomials. Values outside this range get the end colours, and NaN gets missing_colour.
 [[nodiscard]] Colour on_a_scale(double t);
 
-/// For 0 to 1: blue over light grey, at 0.5, to red (K. Moreland, "Diverging color maps for scientific
-/// visualization", 2009). Other values as in on_a_scale.
+/// The colour for 0 to 1: from blue over light grey at 0.5 to red (K. Moreland, "Diverging color maps for
+/// scientific visualization", 2009). Other values as in on_a_scale.
 [[nodiscard]] Colour on_a_diverging_scale(double t);
 
 /// The colour on the scale that fits the range.

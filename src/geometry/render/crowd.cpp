@@ -18,7 +18,7 @@ std::vector<Vec3> some_points(const Scene& scene, const PictureSettings& setting
     const auto add = [&](const Part& part, const Vec3& p) {
         if (const Vec3 world = part.transform.point(p); is_finite(world)) points.push_back(world);
     };
-    std::size_t at = 0; // counts through all parts, so that many small parts are sampled too
+    std::size_t at = 0; // counts through all parts, so that small parts are sampled too
     for (const Part& part : scene.parts) {
         if (settings.shows && !settings.shows(part)) continue;
         const Mesh& mesh = part.mesh;
@@ -57,7 +57,7 @@ std::string crowd_in_words(const Crowd& crowd) {
 }
 
 std::optional<Crowd> crowd_of(const Scene& scene, const PictureSettings& settings) {
-    constexpr double small = 0.01; // of the longer side: an icon
+    constexpr double small = 0.01; // share of the longer side: the size of an icon
     std::vector<Vec3> points = some_points(scene, settings);
     if (points.empty()) return {};
     const Box box = middle_box(points);

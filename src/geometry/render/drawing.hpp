@@ -1,6 +1,5 @@
 #pragma once
-// The parts of a scene prepared for a canvas: their triangles with canvas positions, and interpolated
-// attributes.
+// Prepares the parts of a scene for a canvas: triangles with canvas positions, and interpolated attributes.
 
 #include "geometry/render/painter.hpp"
 #include "geometry/render/view.hpp"
@@ -22,12 +21,12 @@ class RealEdges {
 /// A part with its points on the canvas.
 class PartDrawing {
   public:
-    /// first: the number of its first triangle; without faces, of its first vertex. lines: draw its edges.
+    /// first: the number of its first triangle or, without faces, its first vertex. lines: draw its edges.
     PartDrawing(const Part& part, const Scene& scene, const PictureSettings& settings, const View& view,
                 std::size_t number, const ValueRange& range, std::uint32_t first, bool lines);
 
     std::uint32_t first() const { return first_; }
-    /// The number of triangles; without faces, of vertices.
+    /// The number of triangles, or of vertices without faces.
     std::size_t count() const { return has_faces_ ? mesh_->face_count() : points_.size(); }
     bool has_faces() const { return has_faces_; }
     const Mesh& mesh() const { return *mesh_; }
@@ -45,9 +44,9 @@ class PartDrawing {
     FacePlace place(const View& view, const CanvasTriangle& t, Index face, double x, double y) const;
     FacePlace vertex_place(Index vertex) const;
 
-    /// The mesh's own normal along the canvas' axes, unit, or none.
+    /// The mesh's own unit normal along the canvas' axes, or none.
     std::optional<Vec3> normal(const View& view, const FacePlace& place) const;
-    /// Texture coordinates of that set, or null.
+    /// The texture coordinates of this set, or null.
     const Attribute* coordinates(Index face, int set) const;
     /// The mesh's own tangent along the canvas' axes and its sign, or none.
     std::optional<std::pair<Vec3, double>> tangent(const View& view, const FacePlace& place) const;
@@ -69,7 +68,7 @@ class PartDrawing {
     std::unique_ptr<Painter> painter_;
     std::unique_ptr<RealEdges> lines_;
     const Attribute *normals_ = nullptr, *tangents_ = nullptr;
-    std::vector<const Attribute*> coordinates_; ///< by set
+    std::vector<const Attribute*> coordinates_; ///< texture coordinates by set
     const std::vector<std::uint32_t>* primitive_of_face_ = nullptr;
 };
 
@@ -82,7 +81,7 @@ class SceneDrawing {
     const std::vector<PartDrawing>& parts() const { return parts_; }
     /// The part that has a number.
     const PartDrawing& part_of(std::uint32_t number) const;
-    std::size_t faces() const { return faces_; } ///< of the parts, polygons counted once
+    std::size_t faces() const { return faces_; } ///< the number of faces of all parts; a polygon counts once
 
   private:
     std::vector<PartDrawing> parts_;

@@ -9,7 +9,7 @@
 
 namespace facetmill {
 
-inline constexpr int letter_width = 6, letter_height = 7; ///< pixels, the gap after a letter included
+inline constexpr int letter_width = 6, letter_height = 7; ///< in pixels, including the gap after a letter
 
 /// The bytes of the UTF-8 character at i; 1 if it is invalid.
 [[nodiscard]] inline std::size_t character_length(std::string_view text, std::size_t i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Blending materials over the opaque surfaces.
+// Blends transparent materials over opaque surfaces.
 
 #include "geometry/render/shader.hpp"
 
@@ -13,7 +13,7 @@ class Layers {
     /// sample of a band) need more, the limit is twice their size.
     static constexpr std::size_t bytes = std::size_t{64} << 20;
 
-    /// numbers: of the triangles in the band that blend. last: see Shader::colour.
+    /// numbers: the numbers of the blending triangles in the band. last: see Shader::colour.
     Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
            const SceneDrawing& drawing, const Shader& shader, LastFacings& last);
 
@@ -22,7 +22,7 @@ class Layers {
 
   private:
     struct Layer {
-        std::uint32_t pixel = 0, number = 0; ///< the pixel counted from the band's first
+        std::uint32_t pixel = 0, number = 0; ///< the pixel, counted from the band's first
         float depth = 0;
         std::uint8_t samples = 0; ///< a bit for each of the pixel's samples
         Texel shade{};
@@ -31,8 +31,8 @@ class Layers {
              LastFacings& last);
     void sort_and_cut();
 
-    std::vector<Layer> layers_; ///< by pixel, from the front
-    int first_, last_, width_;  ///< rows of samples, pixels of a row
+    std::vector<Layer> layers_; ///< sorted by pixel, then from front to back
+    int first_, last_, width_;  ///< range of sample rows; pixels per row
 };
 
 } // namespace facetmill

@@ -13,14 +13,14 @@ namespace {
 
 using Ink = std::array<std::uint8_t, 3>;
 
-constexpr int letters_wide = 17; ///< of the legend
+constexpr int letters_wide = 17; ///< width of the legend in letters
 constexpr int bar_letters = 3;   ///< the width of the colours and the ticks, in letters
 
 int letter_scale(const PictureSettings& s) {
     return std::clamp(std::min(s.width / 500, s.height / 300), 1, 8);
 }
 
-/// Dark on a light or transparent ground.
+/// Dark ink on a light or transparent ground, otherwise light.
 Ink ink_for(const PictureSettings& s) {
     if (!s.ground) return {64, 64, 64};
     const auto& g = *s.ground;
@@ -41,7 +41,7 @@ void fill(Picture& p, int x0, int y0, int x1, int y1, const std::array<std::uint
 }
 
 std::string shortened(const std::string& text) {
-    std::size_t count = 0, cut = 0; // characters; the bytes kept before the dots
+    std::size_t count = 0, cut = 0; // number of characters; number of bytes kept before the dots
     for (std::size_t i = 0; i < text.size(); i += character_length(text, i)) {
         if (count == letters_wide - 2) cut = i;
         ++count;
@@ -84,7 +84,7 @@ bool says(const std::string& text, double x, double error) {
     return read && std::abs(*read - x) <= error;
 }
 
-/// The picture at the left of a wider picture.
+/// Copies the picture to the left of a wider picture.
 Picture widened(const Picture& picture, const PictureSettings& settings) {
     Picture out = picture;
     out.width = settings.width;

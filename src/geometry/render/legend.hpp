@@ -7,7 +7,7 @@ namespace facetmill {
 
 /// The width in pixels that the legend takes at the right. It is 0 if no legend is requested, or if no
 /// numbers exist and identifiers are absent or too many. It is also 0 if the scene would get less than half
-/// of the width, or the height is too small for two numbers.
+/// of the width, or if the height is too small for two numbers.
 [[nodiscard]] int legend_width(const PictureSettings& settings, const ValueRange& range);
 
 /// The picture with the legend to its right, as wide as the settings require. The legend has the attribute's

@@ -12,7 +12,7 @@ constexpr std::size_t looks_around = 16, pattern = 4;
 
 /// The position of the nearest sample of each pixel, along the canvas' axes.
 struct Places {
-    int width = 0, height = 0; ///< pixels
+    int width = 0, height = 0; ///< in pixels
     std::vector<std::array<float, 3>> place;
     std::vector<std::uint32_t> seen;
 

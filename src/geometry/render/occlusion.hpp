@@ -1,5 +1,5 @@
 #pragma once
-// Ambient occlusion: the visible share of the sky at each pixel, from the depths around it.
+// Ambient occlusion: computes the visible share of the sky at each pixel from the depths around it.
 
 #include "geometry/render/shader.hpp"
 

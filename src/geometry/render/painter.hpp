@@ -37,14 +37,14 @@ template <std::size_t N>
     return sum;
 }
 
-/// The colours of one part.
+/// The colours of a part.
 class Painter {
   public:
-    /// mesh is the part's, or its triangles; number counts the shown parts.
+    /// mesh: the part's mesh, or its triangles. number: the part's number among the shown parts.
     Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& settings, std::size_t number,
             const ValueRange& range);
 
-    /// Without textures; alpha too.
+    /// The colour and alpha without textures.
     Texel of(const FacePlace& place) const;
     /// The textures and other properties of the face's material; null if its material is not used.
     const MaterialLook* look(Index face) const { return primitive(face).look; }
@@ -66,7 +66,7 @@ class Painter {
     struct PrimitivePaint {
         Texel colour{};
         bool double_sided = false;
-        bool coloured = false; ///< by colours_, too
+        bool coloured = false; ///< colours_ apply too
         const MaterialLook* look = nullptr;
     };
     const PrimitivePaint& primitive(Index face) const {
@@ -82,7 +82,7 @@ class Painter {
     const Mesh& mesh_;
     const std::vector<std::uint32_t>* primitive_of_face_ = nullptr; ///< null: all faces belong to the first
     const Attribute* colours_ = nullptr; ///< the colours of the mesh, if they are used
-    const Attribute* values_ = nullptr;  ///< the attribute to show instead
+    const Attribute* values_ = nullptr;  ///< the attribute shown instead of colours
     ValueRange range_;
     bool by_normal_ = false;
     std::vector<PrimitivePaint> primitives_;

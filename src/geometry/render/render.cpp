@@ -231,7 +231,7 @@ class PictureDrawing {
     }
 
     /// The part of the line from a to b on the canvas, as shares of the line (Liang, Barsky, "A new concept
-    /// and method for line clipping", 1984). Nothing if the line misses the canvas or is not finite.
+    /// and method for line clipping", 1984). None if the line misses the canvas or is not finite.
     std::optional<std::pair<double, double>> part_within(const Vec3& a, const Vec3& b) const {
         if (!is_finite(a) || !is_finite(b)) return {};
         double from = 0, to = 1;
@@ -272,7 +272,7 @@ class PictureDrawing {
             }
     }
 
-    /// The sum over the samples of a pixel, colours times alpha.
+    /// The sum over the samples of a pixel, with colours multiplied by alpha.
     Texel pixel_sum(int x, int y, const Layers& layers, float open, LastFacings& last) const {
         constexpr int n = Canvas::samples;
         std::array<Texel, n* n> shades = solid_samples(x, y, open, last);
@@ -335,7 +335,7 @@ class PictureDrawing {
         for (std::size_t c = 0; c < 3; ++c) shade[c] *= dim;
     }
 
-    /// Whether the depth jumps at two samples from here, more than the slope explains.
+    /// Whether the depth jumps, two samples away, by more than the slope explains.
     bool on_silhouette(int x, int y) const {
         constexpr int step = Canvas::samples;
         const double jump = 0.015 * std::max(canvas_.width, canvas_.height);
@@ -366,7 +366,7 @@ class PictureDrawing {
     SceneDrawing drawing_;
     Shader shader_;
     std::vector<std::vector<std::uint32_t>> bands_;
-    std::vector<float> open_; ///< by pixel; empty: 1 everywhere
+    std::vector<float> open_; ///< per pixel; empty: 1 everywhere
 };
 
 bool any_part_has(const Scene& scene, const PictureSettings& settings) {

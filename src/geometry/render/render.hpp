@@ -46,12 +46,12 @@ enum class Paint {
     plain,    ///< grey
 };
 
-enum class EdgeLines { few, all, no }; ///< few: of parts in scenes of at most PictureSettings::few faces
+enum class EdgeLines { few, all, no }; ///< few: only in scenes of at most PictureSettings::few faces
 
 /// The camera of a picture, to view another scene in the same way, in parallel projection.
 struct Camera {
     Vec3 up, front;
-    Box seen; ///< of the scene, along the right, the up and the viewing direction of the picture
+    Box seen; ///< box of the scene along the right, up and viewing directions of the picture
 };
 
 struct PictureSettings {
@@ -59,7 +59,7 @@ struct PictureSettings {
     Viewpoint viewpoint = Viewpoint::corner;
     std::optional<Vec3> from; ///< the direction towards the viewer, in world space, instead of viewpoint
     double turn = 0;          ///< radians that the viewer moves around the up axis, anticlockwise from above
-    std::optional<Camera> camera; ///< of another scene, with the same direction; without perspective only
+    std::optional<Camera> camera; ///< camera of another scene with the same direction; not with perspective
     double perspective = 0;       ///< the angle of view over the scene, radians, below pi; 0: parallel
     double zoom = 1;              ///< at least 1; the middle of the picture is magnified
     double max_scale = HUGE_VAL;  ///< pixels per unit before zoom, for pictures with a common scale
@@ -68,22 +68,23 @@ struct PictureSettings {
     ShadingNormals normals = ShadingNormals::automatic;
     bool occlusion = true; ///< corners and folds are darker
     bool coarse_occlusion =
-        false;                ///< computed at every second pixel of every second row: a third of the time
+        false; ///< computes occlusion only at every second pixel of every second row, in a third of the time
     bool silhouettes = false; ///< lines where the depth jumps
     Paint paint = Paint::material;
-    std::string attribute; ///< instead of paint, where a mesh has it: its first component, identifiers
-                           ///< (Role::index) in colours of their own, numbers on a scale
-    ColourRange range{};   ///< of that scale
+    std::string attribute; ///< if a mesh has this attribute, its first component replaces paint: identifiers
+                           ///< (Role::index) in distinct colours, numbers on a scale
+    ColourRange range{};   ///< range of the scale
     bool legend = false;   ///< draw the scale with its numbers to the right of the scene, if it fits
     std::string unit{};    ///< after the name of the attribute in the legend
     EdgeLines edges = EdgeLines::few;
     std::size_t few = 6000;
-    double point = 1; ///< pixels, a side of the square of a vertex without faces, the width of lines
+    double point =
+        1; ///< in pixels: the side of the square for a vertex without faces, and the width of lines
     std::optional<std::array<float, 3>> ground{}; ///< linear background; none: transparent
     std::function<bool(const Part&)> shows{};     ///< selects parts; empty: all
     std::vector<Vec3> marks{};                    ///< world positions to mark with rings, drawn on top
     std::shared_ptr<const ResolvedMaterials>
-        materials{}; ///< with textures; none: Material::base_colour alone
+        materials{}; ///< materials with textures; empty: only Material::base_colour
 };
 
 /// Rows from the top, four bytes a pixel: red, green, blue (sRGB), alpha (0 for empty pixels).
@@ -91,40 +92,40 @@ struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
     double scale = 0;           ///< pixels per scene unit at the centre; 0 for a scene without extent
-    std::size_t faces = 0;      ///< faces drawn, in the visible parts
-    ValueRange range{};         ///< of the attribute's numbers
-    bool has_attribute = false; ///< whether some part has the attribute
+    std::size_t faces = 0;      ///< number of faces of the visible parts
+    ValueRange range{};         ///< range of the attribute's numbers
+    bool has_attribute = false; ///< true if a part has the attribute
 };
 
-/// The scene in world space, fitted into 92 % of the picture.
+/// Draws the scene in world space, fitted into 92 % of the picture.
 /// - Parts without faces show their vertices and lines. Points that are not finite are left out. An empty
-/// scene gives an empty picture.
+///   scene gives an empty picture.
 /// - Polygons are drawn as triangulated() cuts them, with their own edges only.
-/// - Each pixel has four samples of the visible surface, and one shade for each face among them.
+/// - Each pixel has four samples of the visible surface, and a shade for each face among them.
 /// - Materials that blend are composited by depth, the sixteen nearest at each sample.
 /// - Occlusion is estimated from the depths around each pixel (M. McGuire, M. Mara, D. Luebke, "Scalable
-/// Ambient Obscurance", 2012).
+///   Ambient Obscurance", 2012).
 ///
-/// The same bytes for any number of threads and any processor. Memory: 64 bytes a pixel, 24 a vertex, the
-/// layers (Layers), and 4 bytes for each blending triangle and band of 16 pixel rows. Throws limit (E-MEMORY)
-/// if memory is short.
+/// The result is the same for any number of threads and any processor. Memory: 64 bytes a pixel, 24 a
+/// vertex, the layers (Layers), and 4 bytes for each blending triangle and band of 16 pixel rows. Throws a
+/// limit error (E-MEMORY) if memory is short.
 [[nodiscard]] Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// The camera of picture_of, which shows the whole scene; empty for an empty scene. With settings.camera: in
-/// its direction. O(vertices).
+/// The camera of picture_of, which shows the whole scene; empty for an empty scene. With settings.camera,
+/// uses its direction. O(vertices).
 [[nodiscard]] Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// Picture::scale without rendering, before zoom. Accounts for the legend.
+/// The value of Picture::scale before zoom, without rendering. Accounts for the legend.
 [[nodiscard]] double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
-/// The position of most of a scene that is hardly visible because a few elements are far off.
+/// The position of most of a scene, if it is hardly visible because a few elements are far away.
 struct Crowd {
     Vec3 middle;       ///< in world space
     double pixels = 0; ///< the size of most of the scene in the picture
     double zoom = 1;   ///< the zoom that would show it around the middle
 };
 
-/// "most of the scene is 3 pixels wide in the picture, because something lies far off"
+/// Describes the crowd: "most of the scene is 3 pixels wide in the picture, because something lies far off".
 [[nodiscard]] std::string crowd_in_words(const Crowd& crowd);
 
 /// The box around the drawn vertices, without the outer tenth at either end of each axis. None unless it

@@ -111,7 +111,7 @@ const LastFacings::Facing& Shader::facing(std::uint32_t number, const PartDrawin
 
 /// The normal of the visible side. facing: facing_normal.
 Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
-    Vec3 outer = facing; // towards the viewer: the outer normal of a front face
+    Vec3 outer = facing; // points to the viewer; the outer normal of a front face
     if (const auto own = spot.part.normal(view_, spot.at))
         outer = *own;
     else if (!spot.front)
@@ -120,17 +120,17 @@ Vec3 Shader::normal_at(const Spot& spot, const Vec3& facing) const {
     return spot.front ? outer : -outer;
 }
 
-/// The cosine between the normal and the light, or 0 for light from behind. right_side: the visible side is
-/// a side that materials show.
+/// The cosine between the normal and the light, or 0 for light from behind. right_side: materials show the
+/// visible side.
 double Shader::in_light(const Vec3& normal, bool right_side) const {
-    static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
+    static const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // light from the viewer's upper left
     double amount = dot(normal, light);
     if (settings_.shading == Shading::one_sided && !right_side) amount = -amount;
     if (settings_.shading == Shading::absolute) amount = std::abs(amount);
     return std::max(0.0, amount);
 }
 
-/// The share of its colour that a point shows in the light, including ambient light.
+/// The brightness of a point in the light, including ambient light, as a share of its colour.
 double Shader::lit(const Spot& spot, const Vec3& normal) const {
     double around = ambient;
     if (spot.look && spot.look->occlusion_texture)
@@ -138,8 +138,8 @@ double Shader::lit(const Spot& spot, const Vec3& normal) const {
     return around + direct * in_light(normal, spot.front || spot.double_sided);
 }
 
-/// x y z of the face's own normal in the world, mapped to 0 to 1. The result is linear, so that the stored
-/// sRGB bytes are exact.
+/// The x, y and z of the face's own world normal, mapped to the range from 0 to 1. The result is linear, so
+/// that the stored sRGB bytes are exact.
 Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     const Vec3 n = spot.front ? facing : -facing;
     const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
@@ -149,7 +149,7 @@ Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     return colour;
 }
 
-/// The same as colour, for a face with a single colour: without textures, vertex colours or vertex normals.
+/// Like `colour`, for a face with a single colour: without textures, vertex colours or vertex normals.
 Texel Shader::plain(const Texel& paint, const LastFacings::Facing& facing, bool double_sided,
                     float open) const {
     const bool right_side = facing.front || double_sided;

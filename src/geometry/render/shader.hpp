@@ -10,11 +10,11 @@ namespace facetmill {
 class LastFacings {
   public:
     struct Facing {
-        std::uint32_t number = none; ///< of the triangle
-        bool front = false;          ///< whether its outer side is visible
+        std::uint32_t number = none; ///< number of the triangle
+        bool front = false;          ///< true if its outer side is visible
         Vec3 normal;                 ///< Shader::facing_normal
     };
-    /// The cache slot for that triangle, which may hold another.
+    /// The cache slot for this triangle. It may contain another triangle.
     Facing& at(std::uint32_t number) { return all_[number % all_.size()]; }
 
   private:
@@ -27,8 +27,8 @@ class Shader {
     Shader(const SceneDrawing& drawing, const View& view, const PictureSettings& settings)
         : drawing_(drawing), view_(view), settings_(settings) {}
 
-    /// The colour, linear, and alpha (1 unless the material blends) of the element with that number, at (x,
-    /// y) of the canvas. open: the visible share of the sky, 0 to 1. last: a cache for this drawing alone.
+    /// The linear colour and alpha (1 unless the material blends) of the element with this number at (x, y)
+    /// of the canvas. open: the visible share of the sky, 0 to 1. last: a cache used only for this drawing.
     Texel colour(std::uint32_t number, double x, double y, float open, LastFacings& last) const;
 
     /// Whether a material with holes is solid at (x, y).

@@ -12,7 +12,7 @@ namespace {
 
 using Level = TextureImage::Level;
 
-/// The pixels of `large` that pixel i of `small` covers, with their weights: (first, count).
+/// The pixels of `large` that pixel i of `small` covers, with their weights.
 struct Cover {
     std::size_t first = 0, count = 0;
     std::array<float, 3> weights{}; ///< a level is at most half as large, so three cover all
@@ -75,7 +75,7 @@ Level halved(const Level& large, bool srgb) {
     return small;
 }
 
-/// The pixel at a coordinate in pixels, inside of [0, size).
+/// Maps a pixel coordinate into [0, size).
 int wrapped(double x, int size, TextureWrap wrap) {
     if (wrap == TextureWrap::clamp) return static_cast<int>(std::clamp<double>(x, 0, size - 1));
     const double period = wrap == TextureWrap::mirror ? 2.0 * size : size;
@@ -140,7 +140,7 @@ void add_bilinear(const Texture& t, const Level& level, double u, double v, floa
 
 /// The footprint in pixels of the largest level.
 struct Axes {
-    double long_u, long_v; ///< the longer axis, in coordinates
+    double long_u, long_v; ///< the longer axis in texture coordinates
     double longer, shorter;
 };
 
@@ -158,10 +158,10 @@ Axes footprint_axes(const Texture& t, const TextureFootprint& f) {
     return right >= down ? Axes{ux, vx, right, down} : Axes{uy, vy, down, right};
 }
 
-/// log2 of x >= 1, linear between powers of two, which is accurate enough to mix levels.
+/// An approximation of log2 of x >= 1, linear between powers of two, which is accurate enough to mix levels.
 double mip_level(double x) {
     int exponent = 0;
-    const double mantissa = std::frexp(x, &exponent); // 0.5 to 1
+    const double mantissa = std::frexp(x, &exponent); // the mantissa is from 0.5 to 1
     return exponent - 1 + (2 * mantissa - 1);
 }
 

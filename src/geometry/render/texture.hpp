@@ -14,9 +14,9 @@ namespace facetmill {
 struct TextureImage {
     struct Level {
         int width = 0, height = 0;
-        std::vector<std::uint8_t> rgba; ///< row by row from the top, stored as the file has them
+        std::vector<std::uint8_t> rgba; ///< row by row from the top, with values as in the file
     };
-    std::vector<Level> levels; ///< at least one
+    std::vector<Level> levels; ///< at least one level
     bool srgb = false;         ///< red, green and blue are in sRGB; otherwise plain numbers
 
     std::size_t bytes() const;
@@ -28,16 +28,16 @@ struct TextureImage {
 [[nodiscard]] std::shared_ptr<const TextureImage>
 texture_image(int width, int height, std::vector<std::uint8_t> rgba, bool srgb, int max_side);
 
-/// The future TextureImage::bytes() of such an image.
+/// The TextureImage::bytes() of an image of this size.
 [[nodiscard]] std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side);
 
 enum class TextureWrap { repeat, clamp, mirror };
 
-/// Red, green, blue and alpha; colours linear.
+/// Red, green, blue and alpha, with linear colours.
 using Texel = std::array<float, 4>;
 
-/// For lines and single points without a colour. It contrasts equally with white and black, so that it is
-/// visible on any background. (Its contrast is 4.2 to 1; graphics need 3 to 1: W3C, "Web Content
+/// The colour for lines and single points without a colour. It contrasts equally with white and black, so
+/// that it is visible on any background. (Its contrast is 4.2 to 1; graphics need 3 to 1: W3C, "Web Content
 /// Accessibility Guidelines 2.1", 2018.)
 inline constexpr Texel loose_colour{0.16f, 0.20f, 0.28f, 1};
 
@@ -48,8 +48,8 @@ struct TextureFootprint {
 
 /// An image and its sampling.
 struct Texture {
-    std::shared_ptr<const TextureImage> image; ///< none: no texture
-    int set = 0;                               ///< n of TEXCOORD_n
+    std::shared_ptr<const TextureImage> image; ///< null: no texture
+    int set = 0;                               ///< the n of TEXCOORD_n
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     bool nearest = false; ///< nearest-neighbour magnification
     /// u' = m[0] u + m[1] v + m[2], v' = m[3] u + m[4] v + m[5] (KHR_texture_transform)
@@ -75,7 +75,7 @@ struct MaterialLook {
     bool unlit = false; ///< KHR_materials_unlit
 };
 
-/// By the index of the scene's materials.
+/// The looks by index of the scene's materials.
 using ResolvedMaterials = std::vector<MaterialLook>;
 
 } // namespace facetmill

@@ -24,7 +24,7 @@ std::vector<std::uint8_t> drawn_vertices(const Mesh& mesh) {
     return drawn;
 }
 
-/// drawn_vertices of the parts of a scene, each computed at first use.
+/// Caches drawn_vertices of the parts of a scene, computed on first use.
 class DrawnVertices {
   public:
     const std::vector<std::uint8_t>& of(const Part& part) {
@@ -65,7 +65,7 @@ Box seen_box(const Scene& scene, const PictureSettings& settings, DrawnVertices&
     return seen;
 }
 
-/// The area vector of a face, twice.
+/// Twice the area vector of a face.
 Vec3 area_vector(const Part& part, Index face) {
     const Mesh& mesh = part.mesh;
     const Index begin = mesh.face_begin(face), end = mesh.face_end(face);
@@ -196,7 +196,7 @@ Box box_along(const View& view, const Scene& scene, const PictureSettings& setti
     });
 }
 
-/// The box as View::of gives it at scale 1 in parallel projection: y down.
+/// The box as View::of maps it at scale 1 in parallel projection, with y down.
 Box as_seen(const Box& box) {
     return {{box.min.x, -box.max.y, box.min.z}, {box.max.x, -box.min.y, box.max.z}};
 }
@@ -224,7 +224,7 @@ void stand_back(View& view, double angle, const Box& box) {
     const double radius = box.diagonal() / 2;
     view.eye = middle;
     view.eye->z += radius > 0 ? radius / sine(angle / 2) : 1;
-    view.distance = view.eye->z - middle.z; // in samples once the scale is known
+    view.distance = view.eye->z - middle.z; // the distance in samples, after multiplication by the scale
 }
 
 } // namespace

@@ -9,7 +9,7 @@ namespace facetmill {
 /// perspective, z grows with the inverse of the distance, so that planes stay planes.
 struct View {
     Vec3 right, up, towards;
-    bool has_extent = false; ///< else the visible scene is a point or empty, and the scale is arbitrary
+    bool has_extent = false; ///< false if the visible scene is a point or empty; the scale is then arbitrary
     double scale = 0, x = 0, y = 0, z = 0; ///< maps the scene's centre to the canvas' centre
     /// In perspective: the viewer's position along the axes in world units, the distance to the scene's
     /// centre in samples, and the canvas point straight ahead.
@@ -29,7 +29,7 @@ struct View {
     Vec3 to_viewer(const Vec3& place) const;
 };
 
-/// The view for a canvas of that many samples.
+/// The view for a canvas with this many samples.
 [[nodiscard]] View view_of(const Scene& scene, const PictureSettings& settings, int width, int height);
 
 } // namespace facetmill

@@ -1,4 +1,4 @@
-// Nesting, roles and measures of the contours of a section.
+// Computes nesting, roles and measures of the contours of a section.
 #include "base/math/predicates.hpp"
 #include "geometry/polygon/ring_tree.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
@@ -22,7 +22,7 @@ class Nesting {
     /// The rings around ring r, ascending.
     std::vector<Index> around(Index r) const {
         std::vector<Index> found;
-        for (const Vec2& p : rings_[r]) // the next point when this one lies on another ring
+        for (const Vec2& p : rings_[r]) // uses the next point if this point is on another ring
             if (around(r, p, found)) break;
         return found;
     }
@@ -103,7 +103,7 @@ void arrange(Section& s) {
     const Nesting nesting(rings);
     std::vector<std::vector<Index>> around(rings.size());
     for (Index r = 0; r < rings.size(); ++r) around[r] = nesting.around(r);
-    if (!s.oriented) // by nesting alone: outlines anticlockwise, holes clockwise
+    if (!s.oriented) // orients by nesting only: outlines anticlockwise, holes clockwise
         for (Index r = 0; r < rings.size(); ++r) {
             Contour& c = s.contours[contour_of[r]];
             const int wanted = around[r].size() % 2 == 0 ? 1 : -1;

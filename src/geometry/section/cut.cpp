@@ -17,8 +17,8 @@ struct PlaneCrossing {
     double along;
 };
 
-/// Cuts faces into pieces. A face of many corners may cross a plane several times. Crossings are ordered
-/// along the cut, and each way down is joined with the way up of the same rank.
+/// Cuts faces into pieces. A face with many corners may cross a plane several times. Crossings are ordered
+/// along the cut, and each descending crossing is joined with the ascending crossing of the same rank.
 class SectionCutter {
   public:
     SectionCutter(const Mesh& mesh, const std::vector<Index>& levels, const StackPlanes& stack,

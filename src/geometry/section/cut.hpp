@@ -1,5 +1,5 @@
 #pragma once
-// Cuts the faces of a mesh by the planes of a stack: pieces of contours. For section only.
+// Cuts the faces of a mesh by the planes of a stack into pieces of contours. Only section uses it.
 
 #include "geometry/section/section.hpp"
 
@@ -13,8 +13,8 @@ struct EdgeKey {
     std::uint64_t bits() const { return std::uint64_t{low} << 32 | high; }
 };
 
-/// A piece of a contour: across a face, from the edge where the face descends through the plane to the edge
-/// where it ascends. Seen against the plane's normal, the face's back is on its left.
+/// A piece of a contour across a face. It runs from the edge where the face descends through the plane to
+/// the edge where it ascends. Viewed against the plane's normal, the face's back is on the left.
 struct Piece {
     Index plane;
     EdgeKey from, to;
@@ -58,10 +58,10 @@ class StackPlanes {
 
     Plane local_;
     std::vector<double> offsets_;                ///< descending
-    std::vector<const CutMemory::Entry*> known_; ///< [planes] or none; empty: nothing is known
+    std::vector<const CutMemory::Entry*> known_; ///< [planes] memory entry, or null; empty: no known points
 };
 
-/// The pieces of all faces, ordered by plane, then face. plane: in the mesh's space. Throws limit
+/// The pieces of all faces, ordered by plane, then face. plane: in the mesh's space. Throws a limit error
 /// (E-SECTION).
 [[nodiscard]] std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const Plane& plane);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Index open_end = none;
 
-/// Joins the pieces of one plane to contours.
+/// Joins the pieces of a plane to contours.
 class Chainer {
   public:
     Chainer(std::span<const Piece> pieces, Section& out) : pieces_(pieces), out_(out) {}
@@ -25,7 +25,7 @@ class Chainer {
     void run(Place&& place) {
         match(place);
         std::vector<char> done(pieces_.size());
-        for (Index e = 0; e < 2 * pieces_.size(); ++e) // from the loose ends first
+        for (Index e = 0; e < 2 * pieces_.size(); ++e) // starts with the loose ends
             if (partner_[e] == open_end && !done[e / 2]) walk(e, done, true);
         for (Index e = 0; e < 2 * pieces_.size(); e += 2)
             if (!done[e / 2]) walk(e, done, false);
@@ -116,7 +116,7 @@ Index straighten(std::vector<Vec2>& points, Contour& c, Index to, double roundin
         if (to > begin + 1 && straight(points[to - 2], points[to - 1], p)) --to;
         points[to++] = p;
     }
-    if (c.role != ContourRole::open) { // around the corner
+    if (c.role != ContourRole::open) { // wraps around the end of the contour
         while (to > begin + 1 && near(points[to - 1], points[begin])) --to;
         while (to > begin + 2 && straight(points[to - 2], points[to - 1], points[begin])) --to;
         if (to > begin + 2 && straight(points[to - 1], points[begin], points[begin + 1]))
@@ -163,7 +163,7 @@ const char* to_string(ContourRole role) {
 
 SectionFrame frame_of(const Plane& plane) {
     check_plane(plane);
-    // Scaled first, so that no normal is too long or too short to be measured.
+    // Scaled first, so that any length of the normal is accepted.
     const Vec3 n = normalised(plane.normal / magnitude(plane.normal));
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
@@ -171,7 +171,7 @@ SectionFrame frame_of(const Plane& plane) {
     Vec3 u;
     u[(axis + 1) % 3] = 1;
     u = normalised(u - n * dot(u, n));
-    // Distance of the plane from the origin along n: n . through - offset / |normal|.
+    // The distance of the plane from the origin along n.
     const double away = dot(n, plane.through) - plane.offset / length(plane.normal);
     return {n * away, u, cross(n, u), n};
 }

@@ -26,75 +26,76 @@ struct SectionFrame {
     Vec3 direction(const Vec2& d) const { return u * d.x + v * d.y; }
 };
 
-/// The frame of a plane: u is the axis after the normal's longest component (x for z), made square to the
-/// normal. For normals along an axis flat coordinates are world coordinates.
+/// The frame of a plane: u is the axis after the normal's longest component (x for z), made perpendicular to
+/// the normal. For normals along an axis, plane coordinates are world coordinates.
 [[nodiscard]] SectionFrame frame_of(const Plane& plane);
 
 struct SectionSettings {
     Plane plane;                    ///< in world space
-    std::vector<double> heights{0}; ///< ascending, world units along the normal from the plane
+    std::vector<double> heights{0}; ///< ascending, in world units along the normal from the plane
     Transform to_world;             ///< from the mesh's space
-    /// Points known to be on planes, in the mesh's space: points on a plane of the stack count as on it.
-    /// None: no known points.
+    /// Points known to be on planes, in the mesh's space. Points on a plane of the stack count as on it.
+    /// Null: no known points.
     const CutMemory* memory = nullptr;
 };
 
 /// The role of a contour within its section.
 enum class ContourRole {
-    outline, ///< nothing outside it, something inside
-    hole,    ///< something outside, nothing inside
-    inner,   ///< something on both sides: bodies that overlap
-    open,    ///< not closed: the mesh has a boundary there
+    outline, ///< encloses material; empty outside
+    hole,    ///< empty inside; surrounded by material
+    inner,   ///< material on both sides, because bodies overlap
+    open,    ///< not closed, because the mesh has a boundary
 };
 [[nodiscard]] const char* to_string(ContourRole role);
 
 struct Contour {
-    Index begin = 0, end = 0; ///< into Section::points
+    Index begin = 0, end = 0; ///< range in Section::points
     ContourRole role = ContourRole::outline;
     Index parent = none; ///< the innermost contour around it, or none
-    int orientation = 1; ///< 1 anticlockwise seen against the normal, -1 clockwise, 0 balanced
+    int orientation = 1; ///< viewed against the normal: 1 anticlockwise, -1 clockwise, 0 balanced
     polygon::Kind kind = polygon::Kind::convex;
-    double area = 0;   ///< of the region that it winds around (nonzero rule), negative when it is clockwise
-    double length = 0; ///< around it, or along it when open
-    std::optional<polygon::Moments> moments; ///< of the region that it winds around; none when open
+    double area = 0;   ///< area of the region that it winds around (nonzero rule); negative if clockwise
+    double length = 0; ///< length of the contour
+    std::optional<polygon::Moments> moments; ///< moments of the region that it winds around; none if open
 };
 
-/// The section at one height.
+/// The section at a height.
 struct Section {
     double height = 0;
     SectionFrame frame;
-    std::vector<Vec2> points;      ///< in the frame; contour by contour
-    std::vector<Contour> contours; ///< in the order of the faces they start at
-    /// Sum over closed contours: holes are subtracted, and overlaps count twice. Negative where the surface
-    /// is inside out, as its volume is.
+    std::vector<Vec2> points;      ///< in the frame, contour by contour
+    std::vector<Contour> contours; ///< in the order of the faces at which they start
+    /// The sum over closed contours: holes are subtracted, and overlaps count twice. Negative if the surface
+    /// is inside out, like its volume.
     double area = 0;
-    bool oriented = true;      ///< neighbours agreed; else contours were oriented by nesting (even-odd)
-    std::size_t collapsed = 0; ///< contours that shrank to a point or line: the plane only touched there
-    polygon::Contact contact = polygon::Contact::none; ///< among all closed contours
+    bool oriented = true; ///< neighbours agree; otherwise contours were oriented by nesting (even-odd)
+    std::size_t collapsed =
+        0; ///< contours that shrank to a point or line, because the plane only touches the surface
+    polygon::Contact contact = polygon::Contact::none; ///< contact among all closed contours
     /// Moments of outlines and holes together; none if a contour is open, or overlaps itself or another.
     std::optional<polygon::Moments> moments;
 
     polygon::Ring ring(const Contour& c) const { return {points.data() + c.begin, points.data() + c.end}; }
-    /// Outlines and holes to fill in a drawing, by the nonzero rule. So overlapping bodies are one region,
-    /// as in space, and everything that a self-crossing contour winds around is inside.
+    /// Outlines and holes to fill in a drawing, by the nonzero rule. So overlapping bodies form a single
+    /// region, and everything that a self-crossing contour winds around is inside.
     std::vector<polygon::Ring> filled() const;
-    /// The number of outlines that run clockwise: the surface is inside out at these.
+    /// The number of clockwise outlines, at which the surface is inside out.
     std::size_t inside_out() const;
 };
 
 /// Sections at all heights, in order; a plane that misses the mesh gives a section without contours.
 /// Contours of consistently oriented closed meshes have the material on their left. Points are computed once
 /// per cut edge, and a vertex exactly on a plane is used unchanged. Points that coincide or are straight up
-/// to rounding (64 units in the last place of the section's largest coordinate) are dropped. One pass over
-/// the vertices and faces, plus n log n in the points of each section. Parallel, the same bytes for any
-/// number of threads. Throws usage (E-PLANE) for a bad plane and limit (E-SECTION) beyond 2^31 segments.
+/// to rounding (64 units in the last place of the section's largest coordinate) are dropped. Takes one pass
+/// over the vertices and faces, plus n log n in the points of each section. Parallel; the result does not
+/// depend on the number of threads. Throws a usage error (E-PLANE) for a bad plane and a limit error
+/// (E-SECTION) beyond 2^31 segments.
 [[nodiscard]] std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings);
 
 /// Computes roles, parents, kinds and measures of the contours of a section whose points are set.
 void arrange(Section& section);
 
-/// The lowest and the highest distance along a plane's normal, from the plane, in world units; empty when
-/// low > high.
+/// The range of distances from a plane along its normal, in world units. Empty if low > high.
 struct Extent {
     double low = HUGE_VAL, high = -HUGE_VAL;
     void add(const Extent& other) {
@@ -103,18 +104,18 @@ struct Extent {
     }
 };
 
-/// Of all vertices of a mesh. Parallel.
+/// The extent of all vertices of a mesh. Parallel.
 [[nodiscard]] Extent extent_along(const Plane& plane, const Mesh& mesh, const Transform& to_world);
 
 struct Stack {
-    std::vector<double> heights{0}; ///< ascending, from the plane
+    std::vector<double> heights{0}; ///< ascending distances from the plane
     double spacing = 0;             ///< 0: a single plane
 };
 
-/// With spacing and count: count planes from the plane on. With spacing (above zero) alone: all its
-/// multiples from the plane, both ways, through the extent. With count alone: the middles of as many equal
-/// slices of the extent, so that areas times spacing is the midpoint rule for the volume. Throws limit
-/// (E-SECTION) beyond a hundred thousand planes.
+/// The planes of a stack. With spacing and count: this many planes, starting with the plane. With only
+/// spacing (above zero): all multiples from the plane, in both directions, through the extent. With only
+/// count: the middles of as many equal slices of the extent, so that areas times spacing is the midpoint
+/// rule for the volume. Throws a limit error (E-SECTION) above 100,000 planes.
 [[nodiscard]] Stack stack_of(const Extent& extent, std::optional<double> spacing,
                              std::optional<std::int64_t> count);
 

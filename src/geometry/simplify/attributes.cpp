@@ -6,6 +6,7 @@
 #include "geometry/simplify/attributes.hpp"
 
 #include "base/math/random.hpp"
+#include "mesh/drawn_box.hpp"
 #include "mesh/provenance.hpp"
 #include "parallel/parallel.hpp"
 
@@ -67,7 +68,7 @@ double length_of_uv(const Mesh& mesh, const Attribute& uv, double scale) {
 class Values {
   public:
     Values(const Mesh& mesh, const AttributeWeights& weights, bool normals, double scale) : mesh_(mesh) {
-        const double unit = share_of_diagonal * mesh.bounds().diagonal() * scale;
+        const double unit = share_of_diagonal * drawn_box(mesh).diagonal() * scale;
         std::size_t sets = 0;
         for (const Attribute& a : mesh.attributes) {
             if (a.domain == Domain::face) continue;

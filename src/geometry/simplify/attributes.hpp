@@ -6,7 +6,7 @@
 namespace facetmill::simplification {
 
 /// The attributes' part of the error; empty if no attribute has a weight. normals: false if the mesh's
-/// normals carry no information.
+/// normals contain no information.
 [[nodiscard]] std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
                                                             const AttributeWeights& weights, bool normals);
 /// The attribute error of merging elements a and b at p, as a quadric of p. Its weight does not include the
@@ -24,7 +24,7 @@ struct Finished {
     std::vector<Index> wedges; ///< surviving wedges of the input, in the mesh's order; empty without seams
 };
 /// Builds the mesh of a shape, with its attributes. log: the collapses that led to the shape; null when
-/// `from` carries no attributes.
+/// `from` has no attributes.
 ///
 /// A moved vertex gets the attributes of the input surface, at the nearest point of the faces around all
 /// vertices merged into it. On a feature line it uses the nearest point of that line. So a texture cannot

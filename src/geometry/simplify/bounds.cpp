@@ -30,7 +30,7 @@ constexpr double near_enough = 0.01;
 // A face that takes more points drops the centres. It replaces so many faces that their centres are as close
 // to it as the vertices around them.
 constexpr Index many_points = 256;
-constexpr float share_left = 1.0f / 4; // for squared errors where faces intersect: halves the distance
+constexpr float share_left = 1.0f / 4; // factor of squared errors where faces intersect: halves the distance
 
 /// The vertices of the surface and the centres of its faces, each with one of its faces. input: the tree of
 /// the mesh that the state was built from; the faces keep that mesh's numbers.

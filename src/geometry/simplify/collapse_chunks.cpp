@@ -17,7 +17,7 @@ namespace facetmill::simplification {
 namespace {
 
 constexpr int stretches_bits = 4;                   // small surfaces have 8 to 16 chunks
-constexpr int least_stretch = 11, max_stretch = 13; // in bits: 2048 to 8192 vertices
+constexpr int least_stretch = 11, max_stretch = 13; // sizes in bits: 2048 to 8192 vertices
 
 /// A bijection of 32 bits.
 std::uint32_t scattered(std::uint32_t x) {
@@ -160,7 +160,7 @@ class Stretches {
 
     State& s_;
     int bits_;
-    std::vector<Share> shares_;      // one per chunk
+    std::vector<Share> shares_;      // a share per chunk
     std::vector<Crossing> crossing_; // edges between two chunks
     Share rest_;
     PassTotals totals_;

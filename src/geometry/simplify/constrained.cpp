@@ -8,7 +8,7 @@ namespace facetmill::simplification {
 
 namespace {
 
-/// The role of each vertex. Only smooth vertices may be removed; pinned and limited vertices take part in no
+/// The role of each vertex. Only smooth vertices may be removed; pinned and limited vertices are in no
 /// collapse.
 std::vector<DecimatedVertex> roles_of(const State& s) {
     std::vector<DecimatedVertex> roles(s.vertex_slots(), DecimatedVertex::free);

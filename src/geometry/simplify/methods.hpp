@@ -29,7 +29,7 @@ struct Outcome {
 /// Collapses edges in order of cost until the goal is met or no edge may be collapsed.
 [[nodiscard]] Outcome run_passes(State& s, const Goal& goal);
 
-/// One of several states that are simplified together.
+/// A state that is simplified together with others.
 struct Member {
     State* state;
     double unit = 1;      ///< length of the state's frame unit, in a length unit that all members share

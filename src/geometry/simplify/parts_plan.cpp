@@ -1,5 +1,6 @@
 #include "geometry/simplify/parts_plan.hpp"
 
+#include "mesh/drawn_box.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/transform.hpp"
@@ -162,10 +163,10 @@ SimplifySettings settings_for(const PartSet& set, const PartsPlan& plan) {
     if (s.constraints.hausdorff > 0) s.constraints.hausdorff /= scale;
     if (plan.o.max_of_diagonal) {
         Box box;
-        for (const std::size_t p : set) box.add(plan.scene.parts[p].mesh.bounds());
+        for (const std::size_t p : set) box.add(drawn_box(plan.scene.parts[p].mesh));
         s.max_quadric_error = *plan.o.max_of_diagonal * diagonal(box);
     }
-    if (!(s.max_quadric_error > 0.0)) s.max_quadric_error.reset(); // for example, a single point
+    if (!(s.max_quadric_error > 0.0)) s.max_quadric_error.reset(); // 0 for a single point
     for (Plane& plane : s.lock.body) plane = pulled_back(plane, to_world);
     if (set.size() == 1 && !plan.contacts.shared.empty()) s.lock.vertices = plan.contacts.shared[set.front()];
     s.samples = 0;

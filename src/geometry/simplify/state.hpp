@@ -78,7 +78,7 @@ struct Log : Collapses {
 };
 
 /// Attributes in the error: how far the attributes of the faces around a vertex differ from a single value at
-/// its position. Per wedge of the input if the mesh has seams, else per vertex.
+/// its position. Per wedge of the input if the mesh has seams, otherwise per vertex.
 struct AttributeError {
     std::size_t channels = 0;     ///< numbers that encode the attributes, at least 1
     std::vector<Quadric> squares; ///< [elements] sum over channels and faces of area times (g.p + d)^2

@@ -32,7 +32,8 @@ void BoxLevels::set_frame(const Box& all) {
     const Vec3 half = all.max - middle;
     const double reach = std::max({half.x, half.y, half.z});
     if (reach > 0 && std::isfinite(reach))
-        scale = std::ldexp(1.0, std::min(-std::ilogb(reach) - 1, 1000)); // down to 2^-1024, which is a double
+        scale = std::ldexp(1.0, std::min(-std::ilogb(reach) - 1,
+                                         1000)); // the scale may fall to 2^-1024, which is still a double
 }
 
 void BoxLevels::number_nodes(std::size_t items) {

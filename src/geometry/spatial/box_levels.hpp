@@ -1,7 +1,7 @@
 #pragma once
-// Float32 boxes over items in a row, four to a node, so that the processor tests four at a time. The items
-// are sorted so that neighbours in the row are neighbours in space. Every node covers four nodes of the
-// level below, so the tree needs no pointers and building it is a sort.
+// A tree of float32 boxes over sorted items. Neighbours in the sorted order are neighbours in space. Each
+// node has four boxes, so that the processor tests four at a time, and covers four nodes of the level below.
+// So the tree needs no pointers, and building it is a sort.
 
 #include "base/math/vec.hpp"
 #include "parallel/parallel.hpp"
@@ -22,18 +22,19 @@ struct BoxLevels {
     struct Node {
         float min[3][4], max[3][4];
         void clear(std::size_t slot);
-        /// The box of finite points in the tree's frame, rounded outward.
+        /// Sets a box of finite points in the tree's frame, rounded outward.
         void set(std::size_t slot, const Vec3& low, const Vec3& high);
         void set(std::size_t slot, const Node& child);
     };
 
     int height() const { return static_cast<int>(level_begin.size()); }
-    /// Node i of a level; its child s is item 4i + s on level 0, node 4i + s of the level below above.
+    /// Node i of a level. Its child s is item 4i + s on level 0, and node 4i + s of the next lower level
+    /// otherwise.
     const Node& node(int level, std::size_t i) const {
         return nodes[level_begin[static_cast<std::size_t>(level)] + i];
     }
     /// The tree's frame has its origin at the middle of the bounds and fits within [-1, 1]. Rounding is
-    /// monotone, so a number between two others stays between them.
+    /// monotonic, so a number between two others stays between them.
     double local(double x, std::size_t axis) const { return (x - middle[axis]) * scale; }
     Vec3 local(const Vec3& p) const { return (p - middle) * scale; }
 
@@ -52,7 +53,7 @@ struct BoxLevels {
 
     Vec3 middle;
     double scale = 1;                     ///< a power of two
-    std::vector<std::size_t> level_begin; ///< into nodes; the last level is the root alone
+    std::vector<std::size_t> level_begin; ///< offsets into nodes; the last level is only the root
     std::vector<Node> nodes;
 
     /// Recomputes the boxes of the items for which changed(i) holds, and the boxes above them. The frame
@@ -88,7 +89,7 @@ struct BoxLevels {
             },
             2048);
     }
-    /// Returns [nodes of the level] 1 where a child changed.
+    /// Returns [nodes of the level] 1 if a child changed.
     template <class Changed, class Set>
     std::vector<std::uint8_t> update_level(std::size_t level, std::size_t children, Changed&& changed,
                                            Set&& set) {

@@ -1,5 +1,5 @@
 #pragma once
-// Finds all pairs of boxes of one set that meet, in one walk of a tree against itself.
+// Finds all pairs of boxes of a set that meet, in a single walk of a tree against itself.
 
 #include "base/math/simd.hpp"
 #include "base/progress.hpp"
@@ -14,11 +14,11 @@
 
 namespace facetmill {
 
-/// Built in parallel, the same for any number of threads. Items with an empty box are in no pair. Boxes are
-/// float32 and slightly larger than given, so some reported pairs only nearly meet.
+/// Built in parallel; the result does not depend on the number of threads. Items with an empty box are in no
+/// pair. Float32 boxes are slightly larger than given, so some reported pairs only nearly meet.
 class BoxPairs {
   public:
-    /// `among` as in choose. frame: an additional box that the float32 frame must contain.
+    /// `among`: see `choose`. frame: an additional box that the float32 frame must contain.
     explicit BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among = {},
                       const Box& frame = {});
 
@@ -67,8 +67,8 @@ class BoxPairs {
             join, tasks_at_once(tasks.size()));
     }
 
-    /// Calls found(i, j) for every pair, on several threads at once and in no order. Returns the number of
-    /// pairs, or most + 1 if it is larger: then found was called for only some of the pairs.
+    /// Calls found(i, j) for every pair, in several threads and in no order. Returns the number of pairs. If
+    /// it exceeds `most`, returns most + 1, after calling found for only some of the pairs.
     template <class Found>
     std::size_t for_each(std::size_t most, Found&& found) const {
         constexpr std::size_t batch = 1024;
@@ -101,8 +101,8 @@ class BoxPairs {
         std::uint32_t a, b;
     };
 
-    /// How many tasks a thread takes at once. One thread takes all tasks of a few boxes, because starting
-    /// another thread would take longer.
+    /// The number of tasks that a thread takes at once. With few boxes, a single thread takes all tasks,
+    /// because starting another thread would take longer.
     std::size_t tasks_at_once(std::size_t tasks) const {
         constexpr std::size_t few = 256;
         return items().size() <= few ? tasks + 1 : 4;
@@ -120,8 +120,8 @@ class BoxPairs {
     }
 
     /// The pairs of children of two nodes whose boxes meet: found(child of a, first child of b, a bit for
-    /// each child of b). If both nodes are the same, also each child with itself, unless the children are
-    /// items.
+    /// each child of b). If both nodes are the same, each child is also paired with itself, unless the
+    /// children are items.
     template <class Found>
     void children(const Couple& c, Found&& found) const {
         const Node &a = levels_.node(c.level, c.a), &b = levels_.node(c.level, c.b);
@@ -142,7 +142,7 @@ class BoxPairs {
         return bits;
     }
 
-    /// found(i, four, bits) returns whether to go on.
+    /// found(i, four, bits) returns whether to continue.
     template <class Found>
     void walk(const Couple& from, Found&& found) const {
         std::array<Couple, 16 * 17> stack; // 17 levels of four hold all indices; fifteen wait at each
@@ -163,14 +163,14 @@ class BoxPairs {
         }
     }
 
-    /// The couples of an upper level, enough of them to distribute over threads.
+    /// The couples of a level with enough couples to distribute over threads.
     std::vector<Couple> couples_above() const;
 
     void set(Node& node, std::size_t slot, const Box& box) const;
     void build(std::span<const Box> boxes);
 
     BoxLevels levels_;
-    Box all_; ///< of all boxes so far
+    Box all_; ///< bounds of all boxes so far
     std::vector<Index> items_;
     /// For each level, whether a child of a node has a flagged item. Child i on level 0 is item i.
     std::vector<std::vector<std::uint8_t>> flags_;

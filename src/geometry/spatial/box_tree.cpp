@@ -6,7 +6,7 @@ namespace facetmill {
 
 namespace {
 
-/// The low 21 bits of x, two zeros after each.
+/// The low 21 bits of x, with two zeros after each.
 std::uint64_t spread(std::uint64_t x) {
     x = (x | x << 32) & 0x1f00000000ffffULL;
     x = (x | x << 16) & 0x1f0000ff0000ffULL;
@@ -35,7 +35,7 @@ struct Placed {
     Index item;
 };
 
-/// The nodes over groups of `many` boxes each.
+/// The level of nodes above, over groups of `many` boxes each.
 std::vector<Box> above(const std::vector<Box>& below, std::size_t many) {
     std::vector<Box> nodes((below.size() + many - 1) / many);
     parallel_for(nodes.size(), [&](std::size_t n) {

@@ -28,7 +28,7 @@ Vec3 closest_on_segment(const Vec3& a, const Vec3& b) {
 /// The point of the triangle closest to the origin. The corners are relative to the query.
 Vec3 closest_to_origin(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a, n = cross(ab, ac);
-    // Twice the areas seen along the normal, times its length: negative beyond an edge.
+    // Twice the areas projected along the normal, times its length. Negative beyond an edge.
     const double wa = dot(n, cross(b, c)), wb = dot(n, cross(c, a)), wc = dot(n, cross(a, b));
     const double sum = wa + wb + wc, size = dot(ab, ab) + dot(ac, ac);
     const bool sliver = !(dot(n, n) > 1e-8 * size * size);
@@ -52,7 +52,7 @@ Vec3 closest_to_origin(const Vec3& a, const Vec3& b, const Vec3& c) {
     return best;
 }
 
-/// From p to the closest point of a triangle, times the tree's scale.
+/// The vector from p to the closest point of a triangle, times the tree's scale.
 Vec3 offset_to(const FaceTree& tree, Index triangle, const Vec3& p) {
     const auto t = tree.triangle(triangle);
     return closest_to_origin((t.a - p) * tree.scale, (t.b - p) * tree.scale, (t.c - p) * tree.scale);
@@ -92,8 +92,8 @@ class NearQuery {
             low_[axis] = Float4{} + rounded_down(x);
             high_[axis] = Float4{} + rounded_up(x);
         }
-        // The rounding to float32 of the query, of its offset to the centre of a turned box and of the
-        // products with an axis: less than 16 roundings of numbers up to its reach + 1.
+        // Covers the float32 rounding of the query, of its offset to the centre of a turned box, and of the
+        // products with an axis. These are less than 16 roundings of numbers up to reach + 1.
         error_ = Float4{} + static_cast<float>((reach_of(tree, p) + 2) * 0x1p-20);
     }
 
@@ -149,7 +149,8 @@ class NearQuery {
 /// axis-aligned boxes only.
 class FarQuery {
   public:
-    static constexpr double largest = 1e8; ///< beyond, distances to all of the surface round to the same
+    static constexpr double largest =
+        1e8; ///< beyond this, distances to all points of the surface round to the same number
     using Number = double;
     static constexpr double most = std::numeric_limits<double>::max();
 
@@ -181,7 +182,7 @@ class FarQuery {
     Vec3 at_;
 };
 
-/// Works in units of the tree's frame, so that squares neither overflow nor vanish for any size of the
+/// Works in units of the tree's frame, so that squares neither overflow nor underflow for any size of the
 /// surface.
 class Search {
   public:
@@ -285,7 +286,7 @@ class Search {
             fetch_soon(tree_.patch(level, node));
     }
 
-    /// The largest bound of interest: the square so far, and a little for its rounding.
+    /// The largest bound of interest: the best square so far, plus a margin for rounding.
     template <class Query>
     typename Query::Number limit_for() const {
         using Number = typename Query::Number;

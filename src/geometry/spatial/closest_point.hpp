@@ -11,7 +11,7 @@ namespace facetmill {
 /// face is reported.
 struct Closest {
     Vec3 point;
-    double distance = HUGE_VAL; ///< infinity when the surface is empty, or the query not finite
+    double distance = HUGE_VAL; ///< infinity if the surface is empty, or the query is not finite
     Index face = none;
     Index triangle = none; ///< in the tree's order: a hint for the next query nearby
 };
@@ -25,8 +25,8 @@ struct Closest {
 [[nodiscard]] Closest closest_on(const FaceTree& tree, Index triangle, const Vec3& p);
 
 /// Searches from the triangle `hint` outward, if given. `enough` stops the search at the first point found
-/// within that distance, which need not be the closest: triangles near the hint are tried first. About a
-/// microsecond on millions of faces.
+/// within this distance. That point may not be the closest, because triangles near the hint are tried first.
+/// About a microsecond on millions of faces.
 [[nodiscard]] Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint = none,
                                     double enough = -1);
 
@@ -34,10 +34,10 @@ struct Closest {
 [[nodiscard]] std::vector<Index> order_of_queries(std::span<const Vec3> points);
 
 /// The triangle to report if a point is on several: the triangle of the lowest face, or any. `any` is for
-/// callers that need only the distance, where thousands of triangles may coincide.
+/// callers that need only the distance, if thousands of triangles may coincide.
 enum class OfSeveral { lowest, any };
 /// Queries many points in parallel. They are visited along a curve through their box, each with the previous
-/// answer as a hint. The result is in the order of the points and the same for any number of threads.
+/// answer as a hint. The result is in the order of the points, and does not depend on the number of threads.
 [[nodiscard]] std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points,
                                                   OfSeveral which = OfSeveral::lowest);
 

@@ -8,9 +8,9 @@
 
 namespace facetmill {
 
-/// Components, among the counted, with a nonzero winding number around p by a ray along an axis, ascending.
-/// A closed component winds around p if p is inside it. p may be on components that are not counted. tree:
-/// for rays; component_of: [faces]. Exact.
+/// The counted components with a nonzero winding number around p, ascending, by a ray along an axis. A
+/// closed component winds around p if p is inside it. p may be on components that are not counted. tree: the
+/// tree for rays. component_of: [faces]. Exact.
 [[nodiscard]] std::vector<Index> components_around(const FaceTree& tree, const Vec3& p,
                                                    const std::vector<Index>& component_of,
                                                    const std::function<bool(Index component)>& counts);

@@ -1,6 +1,6 @@
 #pragma once
-// The box of most of many points. Frames and curves over the box of all points lose their precision to a
-// single point far away.
+// Computes the box of most points. A single point far away would cost frames and curves over the box of all
+// points their precision.
 
 #include "base/math/vec.hpp"
 
@@ -10,10 +10,10 @@
 
 namespace facetmill {
 
-/// The box around the middle of the points that contains all but far outliers. It reaches 32 times as far to
-/// each side as the middle half of the points along its longest axis, clipped to `all`, the box of all
-/// points. Returns `all` itself if no point is outside. Judged by about a thousand points, evenly by number;
-/// point_of(i) returns point i.
+/// The box around the middle of the points that contains all but far outliers. To each side it extends 32
+/// times the extent of the middle half of the points along its longest axis. It is clipped to `all`, the box
+/// of all points. Returns `all` if no point is outside. Uses about a thousand points, evenly spaced by
+/// number. point_of(i) returns point i.
 template <class PointOf>
 [[nodiscard]] Box dense_box(std::size_t count, const Box& all, PointOf&& point_of) {
     std::array<std::vector<double>, 3> at;

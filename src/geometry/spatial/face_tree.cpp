@@ -38,7 +38,7 @@ std::vector<Index> finite_triangles(const Surface& surface) {
 }
 
 constexpr int coarse_run_bits = 3;
-constexpr std::size_t node_run = 4; ///< the triangles of a node
+constexpr std::size_t node_run = 4; ///< number of triangles in a node
 
 Box box_of_triangle(const Surface& surface, std::size_t t) {
     Box box;
@@ -47,8 +47,8 @@ Box box_of_triangle(const Surface& surface, std::size_t t) {
 }
 
 /// Whether consecutive triangles are neighbours in space, as in most files: runs of `length` triangles are
-/// at most `near` times as long as a triangle. Judged by a thousand runs. A run of eight in rows of a grid
-/// is three times as long, sorted along a curve twice.
+/// at most `near` times as long as a triangle. Tests a thousand runs. A run of eight is three times as long
+/// in rows of a grid, and twice as long if sorted along a curve.
 bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& kept, std::size_t length,
                             double near) {
     const std::size_t runs = kept.size() / length;
@@ -73,7 +73,7 @@ bool has_neighbours_in_runs(const Surface& surface, const std::vector<Index>& ke
 /// frame of everything.
 void FaceTree::set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept) {
     const Box dense = dense_box(kept.size(), all, [&](std::size_t i) { return surface.point(kept[i], 0); });
-    constexpr double most = 1e20; // squares of this are float32 still
+    constexpr double most = 1e20; // squares of this still fit float32
     const Vec3 whole = all.extent(), part = dense.extent();
     if (std::max({whole.x, whole.y, whole.z}) > most * std::max({part.x, part.y, part.z})) return;
     set_frame(dense);
@@ -121,7 +121,7 @@ std::vector<Index> FaceTree::runs_along_curve(const Surface& surface, const std:
 
 std::vector<Index> FaceTree::in_order(const Surface& surface, const std::vector<Index>& kept, Use use) const {
     if (use != Use::coarse && use != Use::few) return in_median_order(surface, kept);
-    // Runs of triangles are as good as single triangles if they are short: at most so many times as long.
+    // Runs of triangles are as good as single triangles if they are at most this many times as long.
     const std::size_t length = use == Use::coarse ? std::size_t{1} << coarse_run_bits : node_run;
     if (has_neighbours_in_runs(surface, kept, length, use == Use::coarse ? 6 : 3))
         return runs_along_curve(surface, kept, length);
@@ -172,20 +172,20 @@ void FaceTree::build_over(const Surface& surface, const Box& all, Use use, bool 
     if (use == Use::all) flatten();
 }
 
-// The part of the tree that lies flat along the surface: plates and patches.
+// The part of the tree that follows the surface: plates and patches.
 
 namespace {
 
 using Patches = FaceTree::Patches;
 using Plates = FaceTree::Plates;
 
-/// Two unit vectors across a unit vector, and across each other.
+/// Two unit vectors perpendicular to a unit vector and to each other.
 std::array<Vec3, 2> across(const Vec3& n) {
     const Vec3 u = normalised(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     return {u, cross(n, u)};
 }
 
-/// A unit vector in the direction of v, or `otherwise` when v is too short to have one.
+/// The unit vector in the direction of v, or `otherwise` if v is too short.
 Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
     const double square = dot(v, v);
     return square > 1e-280 ? v / std::sqrt(square) : otherwise;
@@ -208,21 +208,22 @@ void clear(Patches& patches, std::size_t slot) {
     }
 }
 
-/// How far float32 may be off at points outside the frame (see FaceTree::reach); queries know of the frame
-/// alone.
+/// The possible float32 error at points outside the frame (see FaceTree::reach). Queries only know the
+/// frame.
 double beyond_frame(const Vec3& p) {
     const double far = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     return far > 2 ? far * 0x1p-18 : 0;
 }
 
-/// a, b, c in the tree's frame. Any normal gives half spaces that hold the triangle; slivers have a poor one.
+/// a, b and c are in the tree's frame. Any normal gives half spaces that contain the triangle; a sliver's
+/// normal is imprecise.
 void set(Plates& plates, std::size_t slot, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 area = cross(b - a, c - a), edges[] = {b - a, c - b, a - c};
     const Vec3& longest =
         *std::max_element(std::begin(edges), std::end(edges),
                           [](const Vec3& x, const Vec3& y) { return dot(x, x) < dot(y, y); });
     Vec3 normal = unit_or(area, across(unit_or(longest, {0, 0, 1}))[0]);
-    // The three corners differ along the normal of a sliver: there the plane says nothing.
+    // The corners of a sliver differ along its normal, so the plane gives no information.
     const double na = dot(normal, a), nb = dot(normal, b), nc = dot(normal, c);
     const auto [low, high] = std::minmax({na, nb, nc});
     const double error = std::max({beyond_frame(a), beyond_frame(b), beyond_frame(c)});
@@ -263,7 +264,7 @@ struct Moments {
         zz += m.zz;
         count += m.count;
     }
-    /// The covariance times v, and so on.
+    /// The covariance times v.
     Vec3 spread(const Vec3& v) const {
         return Vec3{xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
                     xz * v.x + yz * v.y + zz * v.z} -
@@ -271,7 +272,7 @@ struct Moments {
     }
 };
 
-/// The mean normal last; before it the principal axes across it.
+/// The axes: two principal axes perpendicular to the mean normal, then the mean normal.
 std::array<Vec3, 3> axes_of(const Moments& m) {
     const Vec3 normal = unit_or(m.normal, {0, 0, 1});
     const auto [u, v] = across(normal);
@@ -339,7 +340,7 @@ void FaceTree::flatten() {
         plates.size(), [&](std::size_t n) { moments[n] = flatten_leaf(*this, n, plates[n]); }, chunk);
     patch_levels = std::min(2, height() - 1);
     for (int level = 1; level <= patch_levels; ++level) {
-        const std::size_t size = std::size_t{1} << 2 * level; // triangles under a child
+        const std::size_t size = std::size_t{1} << 2 * level; // number of triangles below a child
         const std::size_t begin = patches.size(), children = moments.size();
         patch_begin.push_back(begin);
         patches.resize(begin + (children + 3) / 4);

@@ -9,10 +9,12 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t few_nodes = 24;  ///< of one level; with more, smaller groups are as fast
-constexpr std::size_t many_nodes = 64; ///< likewise; with more, smaller groups of parts are as fast
-constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are too coarse for points beyond
-constexpr float rounding = TriangleSlabs::rounding; ///< points that close to an edge count as outside it
+constexpr std::size_t few_nodes = 24; ///< limit for nodes of a level; with more, smaller groups are as fast
+constexpr std::size_t many_nodes =
+    64; ///< limit for nodes of a level; with more, smaller groups of parts are as fast
+constexpr double farthest_reach =
+    32; ///< in the tree's frame; its float32 numbers are too coarse for points beyond
+constexpr float rounding = TriangleSlabs::rounding; ///< points this close to an edge count as outside
 
 Float4 four(float x) { return Float4{x, x, x, x}; }
 
@@ -28,7 +30,7 @@ Box box_around(std::span<const Vec3> points) {
 /// and along the edge. Numbers near the group are then small and keep their precision.
 struct GroupDistances::Flat {
     struct Edge {
-        Float4 out[3], reach, along[3], begin, end; ///< each number four times
+        Float4 out[3], reach, along[3], begin, end; ///< each number is stored four times
     };
     Float4 normal[3], offset;
     Edge edges[3];
@@ -84,7 +86,7 @@ bool GroupDistances::place(std::span<const Vec3> points, const Vec3& centre, dou
     return true;
 }
 
-/// The squared distances of four points to a triangle; infinity where all are at least `limit`.
+/// The squared distances of four points to a triangle; infinity if all are at least `limit`.
 Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::size_t four_of) const {
     const Float4 x = x_[four_of], y = y_[four_of], z = z_[four_of];
     const Float4 up = x * t.normal[0] + y * t.normal[1] + z * t.normal[2] - t.offset;
@@ -96,7 +98,7 @@ Float4 GroupDistances::squares_below(const Float4& limit, const Flat& t, std::si
     const Float4 farthest = greater(greater(beyond[0], beyond[1]), beyond[2]);
     const Float4 aside = greater(farthest, Float4{});
     if (bits_of(up * up + aside * aside < limit) == 0) return four(HUGE_VALF);
-    // In the plane: 0 inside, and beyond an edge the distance to that edge.
+    // The distance in the plane: 0 inside, and beyond an edge the distance to the edge.
     Float4 across = farthest <= four(-rounding) ? Float4{} : four(HUGE_VALF);
     for (std::size_t k = 0; k < 3; ++k) {
         const Flat::Edge& e = t.edges[k];
@@ -165,7 +167,7 @@ struct BoxQuery {
         }
         square = four(square_of(tree, distance));
     }
-    /// In the tree's frame, rounded up.
+    /// The squared distance in the tree's frame, rounded up.
     static float square_of(const FaceTree& tree, double distance) {
         const double farthest = distance * tree.scale * (1 + 1e-6);
         return static_cast<float>(farthest * farthest) + 1e-37F;
@@ -187,7 +189,7 @@ struct BoxQuery {
 
 } // namespace
 
-/// Finds the nodes of the lowest level within `limit` of the box. Returns false if they are more than
+/// Finds the nodes of the lowest level within `limit` of the box. Returns false if there are more than
 /// `most_nodes`.
 bool GroupDistances::gather(const Box& box, double limit, std::size_t most_nodes) {
     const BoxQuery query(tree_, box, limit);
@@ -228,9 +230,9 @@ void GroupDistances::take_distances(std::size_t count) {
 double GroupDistances::limit() const { return std::sqrt(double{farthest_square()}) / scale_ + 3 * error_; }
 
 /// Compares all points with the triangles below the gathered nodes that may be nearer than the best so far,
-/// except leaf `but`. Returns false if they are so many that single queries are as fast.
+/// except leaf `but`. Returns false if so many triangles are left that single queries are as fast.
 bool GroupDistances::compare_nearer(std::span<const Vec3> points, const Box& box, std::uint32_t but) {
-    constexpr std::size_t most_triangles = 3; // for each point
+    constexpr std::size_t most_triangles = 3; // triangles per point
     BoxQuery query(tree_, box, limit());
     children_.clear();
     squares_.clear();
@@ -277,7 +279,7 @@ float GroupDistances::enough_square(double distance) const {
 }
 
 bool GroupDistances::all_within(std::span<const Vec3> points, double distance, Index& hint) {
-    distances_.fill(HUGE_VAL); // nothing has been shown
+    distances_.fill(HUGE_VAL); // no point is proved to be near
     if (tree_.empty() || !(distance > 0)) return false;
     const Box box = box_around(points);
     if (!place(points, box.centre(), box.diagonal() + distance)) return false;
@@ -322,7 +324,7 @@ bool GroupDistances::lay_out(std::span<const Vec3> points, double distance) {
 }
 
 /// Finds the nodes whose boxes are within a distance of the box of the points in `among`. Returns false if
-/// they are many.
+/// too many are found.
 bool GroupDistances::gather_near(std::span<const Vec3> points, double distance, std::uint32_t among) {
     Box box;
     for (std::uint32_t left = among; left != 0; left &= left - 1)
@@ -375,8 +377,8 @@ TriangleSlabs GroupDistances::slabs_of(std::uint32_t node) const {
             done_square_};
 }
 
-/// Returns the untried triangle below the gathered nodes whose box is nearest to a point, if within the
-/// distance, else none. Marks it as tried.
+/// Returns the untried triangle below the gathered nodes whose box is nearest to a point, or none if its box
+/// is beyond the distance. Marks it as tried.
 Index GroupDistances::next_near(const Vec3& point, double distance) {
     Box at;
     at.add(point);
@@ -423,7 +425,7 @@ void GroupDistances::remove_within(std::span<const Vec3> points, double distance
             sum += points[static_cast<std::size_t>(std::countr_zero(left))];
         const Index near = next_near(sum / std::popcount(sets[first]), distance);
         if (near == none)
-            ++first; // stays, and is not tested again
+            ++first; // the set stays, and is not tested again
         else
             remove(near, first);
     }

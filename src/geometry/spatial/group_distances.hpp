@@ -18,7 +18,7 @@ class GroupDistances {
   public:
     static constexpr std::size_t most = 32; ///< points in a group
 
-    /// The tree must outlive this. One object for each thread.
+    /// The tree must outlive this object. Each thread needs its own object.
     explicit GroupDistances(const FaceTree& tree) : tree_(tree) {}
 
     /// Measures 1 to `most` finite points; the nearer they are to each other, the faster. hint: a nearby
@@ -28,11 +28,11 @@ class GroupDistances {
     bool measure(std::span<const Vec3> points, Index& hint);
 
     /// Tries to prove that 1 to `most` finite points are all within a distance, which needs fewer triangles.
-    /// hint as above. Then distance(i) + error() is an upper bound of each point's distance.
+    /// hint: see `measure`. On success, distance(i) + error() is an upper bound of each point's distance.
     bool all_within(std::span<const Vec3> points, double distance, Index& hint);
 
-    /// Stores 1 to `most` finite points for `within`, until the next other call. Returns false if the
-    /// distance is too small, or the points are too far away, for a reliable result.
+    /// Stores 1 to `most` finite points for `within`, until the next call of another function. Returns false
+    /// if the distance is too small, or the points are too far away, for a reliable result.
     bool lay_out(std::span<const Vec3> points, double distance);
     /// The stored points that are certainly within the distance of a triangle of the tree: bit i for the
     /// i-th. Complete for points in `among`, up to float32 error.
@@ -65,18 +65,18 @@ class GroupDistances {
 
     /// Each set has bit i for the i-th of 1 to `most` finite points. Removes the sets whose points are all
     /// within a distance of a single triangle, because then everything between them is as well. Undecided
-    /// sets stay. hint as above.
+    /// sets stay. hint: see `measure`.
     void remove_within(std::span<const Vec3> points, double distance, std::vector<std::uint32_t>& sets,
                        Index& hint);
 
-    // Of the i-th point of the last group, when that could be measured:
+    // The following functions describe the i-th point of the last group that could be measured.
 
-    /// Off by no more than error(); the same on every processor.
+    /// The error is at most error(). The result is the same on every processor.
     double distance(std::size_t i) const { return distances_[i]; }
     double error() const { return error_; }
-    /// In the tree's order: the closest triangle, or one that is as close up to the error.
+    /// The closest triangle, or a triangle that is as close up to the error, in the tree's order.
     Index triangle(std::size_t i) const { return triangles_[i]; }
-    /// Whether every other triangle is farther.
+    /// Whether every other triangle is certainly farther.
     bool is_certain(std::size_t i) const { return seconds_[i] - distances_[i] > 2 * error_; }
 
   private:
@@ -103,24 +103,26 @@ class GroupDistances {
     float farthest_square() const;
 
     const FaceTree& tree_;
-    std::array<double, most> distances_{}, seconds_{}; ///< to the closest triangle, and the second closest
+    std::array<double, most> distances_{},
+        seconds_{}; ///< distances to the closest and the second closest triangle
     std::array<Index, most> triangles_{};
-    double error_ = 0;       ///< in the surface's units
+    double error_ = 0;       ///< largest error, in the surface's units
     float done_square_ = -1; ///< points this near need no comparison with more triangles
 
     std::vector<std::uint32_t> nodes_,
-        children_; ///< nodes of one level and of the level below that may hold the closest
-    std::vector<float>
-        squares_; ///< of the distances of the points' box to the children's, in the tree's frame
-    std::vector<Float4> tried_; ///< of the gathered nodes' children, infinity for those tried, else 0
+        children_; ///< nodes of a level, and of the level below, that may contain the closest triangle
+    std::vector<float> squares_; ///< squared distances from the box of the points to the boxes of the
+                                 ///< children, in the tree's frame
+    std::vector<Float4> tried_;  ///< per child of the gathered nodes: infinity if tried, otherwise 0
 
-    // In the group's frame.
+    // The following members are in the group's frame.
     Vec3 centre_;
     double scale_ = 1;
     std::size_t fours_ = 0;
-    std::array<Float4, most / 4> x_, y_, z_;      ///< points
-    std::array<Float4, most / 4> least_, second_; ///< their squared distances, as above
-    std::array<Int4, most / 4> nearest_;          ///< triangles
+    std::array<Float4, most / 4> x_, y_, z_; ///< coordinates of the points
+    std::array<Float4, most / 4> least_,
+        second_;                         ///< squared distances to the closest and second closest triangle
+    std::array<Int4, most / 4> nearest_; ///< closest triangles
 };
 
 } // namespace facetmill

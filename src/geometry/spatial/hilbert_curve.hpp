@@ -46,7 +46,7 @@ struct Step {
 }
 inline constexpr auto steps = make_steps();
 
-/// Two steps at once, into one of 64 cells: two bits of x, then of y and z.
+/// Two steps at once, into one of 64 cells. The index has two bits of x, then two of y and two of z.
 [[nodiscard]] constexpr std::array<std::array<Step, 64>, 24> make_double_steps() {
     std::array<std::array<Step, 64>, 24> doubles{};
     for (std::size_t state = 0; state < doubles.size(); ++state)
@@ -74,8 +74,7 @@ inline constexpr auto double_steps = make_double_steps();
     return along;
 }
 
-/// The position of a point in the box. Points outside count as on its border, not-a-number as its lower
-/// corner.
+/// The position of a point in the box. Points outside count as on its border, and NaN as its lower corner.
 [[nodiscard]] inline std::uint64_t index(const Vec3& p, const Box& all) {
     std::array<std::uint32_t, 3> cell{};
     constexpr double cells = (1 << axis_bits) - 1;
@@ -89,13 +88,14 @@ inline constexpr auto double_steps = make_double_steps();
 
 } // namespace hilbert
 
-/// The numbers 0 to count - 1 in the order of centre_of(i) along the curve through `all`; equal positions by
-/// number.
+/// The numbers 0 to count - 1 in the order of centre_of(i) along the curve through `all`. Equal positions
+/// are sorted by number.
 template <class CentreOf>
 [[nodiscard]] std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf&& centre_of) {
     constexpr int place_bits = 3 * hilbert::axis_bits, item_bits = 64 - place_bits;
     std::vector<Index> order(count);
-    if (count <= std::size_t{1} << item_bits) { // both in one number: half of the memory to sort
+    if (count <=
+        std::size_t{1} << item_bits) { // key and index in the same number: half of the memory to sort
         std::vector<std::uint64_t> placed(count);
         parallel_for(count,
                      [&](std::size_t i) { placed[i] = hilbert::index(centre_of(i), all) << item_bits | i; });

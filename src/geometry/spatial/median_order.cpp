@@ -14,7 +14,7 @@ namespace {
 
 using Items = std::span<CentredItem>;
 
-/// The axis along which the centres reach farthest.
+/// The axis along which the extent of the centres is largest.
 std::size_t longest_side(Items items) {
     static_assert(sizeof(CentredItem) == sizeof(Float4));
     const auto whole = [](const CentredItem& item) { // the last lane is the item's number and is ignored
@@ -33,7 +33,7 @@ std::size_t longest_side(Items items) {
     return longest;
 }
 
-/// By the coordinate along one axis, then by number.
+/// Compares by the coordinate along an axis, then by number.
 class Before {
   public:
     explicit Before(std::size_t axis) : axis_(axis) {}

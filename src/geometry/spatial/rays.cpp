@@ -46,7 +46,7 @@ int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, co
     return winding_there - left;
 }
 
-// The cases of one segment and one facet, of geometry/spatial/rays.hpp.
+// Implements the cases of a segment and a facet of geometry/spatial/rays.hpp.
 
 const char* to_string(Meeting meeting) {
     constexpr const char* names[] = {"hit", "parallel", "in plane", "outside segment", "outside facet"};
@@ -89,8 +89,8 @@ SegmentFacet meet(const Line& line, std::span<const Vec3> facet) {
     return result;
 }
 
-// The inside test of geometry/spatial/rays.hpp: a ray along an axis needs two comparisons per box and signs
-// in the plane.
+// Implements the inside test of geometry/spatial/rays.hpp. A ray along an axis needs two comparisons per
+// box, and signs in the plane.
 
 namespace {
 
@@ -144,8 +144,8 @@ void visit(const FaceTree& tree, const Query& query, Found&& found) {
     }
 }
 
-/// The side of the edge that contains the point, seen along the axis. A point on the edge's line is treated
-/// as if moved a little along u, and by less along v. Returns 0 only for an edge seen as a point.
+/// The side of the edge that contains the point, projected along the axis. A point on the edge's line is
+/// treated as if moved a little along u, and by less along v. Returns 0 only for an edge seen as a point.
 int side(const Vec3& a, const Vec3& b, const Vec3& p, std::size_t u, std::size_t v) {
     if (const int sign = orientation_2d(a[u], a[v], b[u], b[v], p[u], p[v])) return sign;
     if (a[v] != b[v]) return b[v] > a[v] ? -1 : 1;
@@ -167,7 +167,7 @@ bool holds(const FaceTree::Triangle& t, const Vec3& p) {
         return within(t.a, t.b) || within(t.b, t.c) || within(t.c, t.a);
     }
     if (orientation_3d(t.a, t.b, t.c, p) != 0) return false;
-    // The triangle has an area as seen along at least one axis.
+    // The projection along at least one axis has an area.
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         const int way = orientation_2d(t.a[u], t.a[v], t.b[u], t.b[v], t.c[u], t.c[v]);

@@ -12,7 +12,7 @@
 
 namespace facetmill {
 
-/// The points from + t (to - from): 0 <= t <= 1 for a segment, t >= 0 for a ray.
+/// A segment (0 <= t <= 1) or ray (t >= 0) of the points from + t (to - from).
 struct Line {
     Vec3 from, to;
     bool ray = false;
@@ -27,16 +27,16 @@ struct Hit {
     int way = 0;           ///< 1: the line leaves through the front of the face; -1: it enters
 };
 
-/// Returns -1 or 1 (see Hit::way) if the line through from and to passes through the triangle, else 0. A
-/// line through an edge or a vertex is treated as if moved sideways by an infinitesimal amount, always to
+/// Returns -1 or 1 (see Hit::way) if the line through from and to passes through the triangle, otherwise 0.
+/// A line through an edge or a vertex is treated as if moved sideways by an infinitesimal amount, always to
 /// the same side. So a surface that is crossed is crossed once, and a surface that is only touched is
 /// crossed twice or not at all. A line within the plane of the triangle does not pass through it. Exact.
 [[nodiscard]] int passes(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// The hit with the least t, of equal hits the lowest face; none if the line misses the surface. A segment's
-/// end point on a face is a hit.
+/// The hit with the smallest t. Equal hits give the lowest face. None if the line misses the surface. A
+/// segment's end point on a face is a hit.
 [[nodiscard]] std::optional<Hit> first_hit(const FaceTree& tree, const Line& line);
-/// All hits, by t, then by face.
+/// All hits, sorted by t, then by face.
 [[nodiscard]] std::vector<Hit> all_hits(const FaceTree& tree, const Line& line);
 
 /// Hits of many lines: those of line i are hits[offsets[i]] to hits[offsets[i + 1]].
@@ -47,16 +47,16 @@ struct HitLists {
         return {hits.data() + offsets[line], hits.data() + offsets[line + 1]};
     }
 };
-/// In parallel; the same for any number of threads.
+/// Parallel; the result does not depend on the number of threads.
 [[nodiscard]] HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all);
 
 /// Calls hit(face, way) for every triangle that a ray from p along a coordinate axis passes through, forward
-/// or back, in no order; way as in Hit. A ray through an edge or a vertex is moved sideways as in `passes`.
-/// p itself is not on the ray. Exact.
+/// or backward, in no order. way: see Hit. A ray through an edge or a vertex is moved sideways as in
+/// `passes`. p itself is not on the ray. Exact.
 void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, bool forward,
                       const std::function<void(Index face, int way)>& hit);
 
-/// The same for one triangle: 1, -1, or 0 if the ray does not pass through it.
+/// The direction for a single triangle: 1 or -1 (see Hit::way), or 0 if the ray does not pass through it.
 [[nodiscard]] int passes_along_axis(const Vec3& p, std::size_t axis, bool forward, const Vec3& a,
                                     const Vec3& b, const Vec3& c);
 
@@ -66,20 +66,20 @@ void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, boo
 [[nodiscard]] int winding(const FaceTree& tree, const Vec3& p);
 
 /// Derives the winding number at `to` from the winding number at `from`, by counting the crossings of the
-/// segment between them. The result equals winding(tree, to), faster for near points. Neither point may be
-/// on the surface. Exact.
+/// segment between them. The result equals winding(tree, to), but is faster for near points. Neither point
+/// may be on the surface. Exact.
 [[nodiscard]] int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, const Vec3& to);
 
-/// Whether p is exactly on a triangle, borders included.
+/// Whether p is exactly on a triangle, including its border.
 bool lies_on(const FaceTree& tree, const Vec3& p);
 
-/// The cases of P. Bourke, "Determining whether a line segment intersects a 3 vertex facet" (1997), for one
-/// segment and one planar polygon.
+/// The cases of P. Bourke, "Determining whether a line segment intersects a 3 vertex facet" (1997), for a
+/// segment and a planar polygon.
 enum class Meeting { hit, parallel, in_plane, outside_segment, outside_facet };
 [[nodiscard]] const char* to_string(Meeting meeting);
 struct SegmentFacet {
     Meeting meeting = Meeting::parallel;
-    double t = 0; ///< where the line meets the plane, unless parallel or in it
+    double t = 0; ///< where the line meets the plane, unless it is parallel or in the plane
     Vec3 point;
 };
 /// Signs are exact for the plane through the first three corners that are not collinear.

@@ -1,4 +1,4 @@
-// Many lines at once, of geometry/spatial/rays.hpp.
+// Implements queries of many lines of geometry/spatial/rays.hpp.
 #include "base/progress.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
 #include "geometry/spatial/rays_walk.hpp"
@@ -9,8 +9,8 @@ namespace facetmill {
 namespace {
 
 /// Interleaves several searches. A search mostly waits for memory (nodes and triangles that no earlier line
-/// visited), and meanwhile the others go on. A million segments on 1.1M faces take 2.0 CPU s one after the
-/// other, 1.3 with four interleaved, and 1.1 with eight.
+/// visited), and meanwhile the others continue. A million segments on 1.1M faces take 2.0 CPU s separately,
+/// 1.3 with four interleaved, and 1.1 with eight.
 class Turns {
   public:
     Turns(const FaceTree& tree, std::span<const Line> lines, std::span<const Index> order, bool all)

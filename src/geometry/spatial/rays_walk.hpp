@@ -37,7 +37,7 @@ class LineSigns {
         if (above[0] == above[1] && above[1] == above[2]) return 0;
         const int ways = crossing(a, b, above[0], above[1]) + crossing(b, c, above[1], above[2]) +
                          crossing(c, a, above[2], above[0]);
-        return ways; // a triangle goes around the point once, either way, or not
+        return ways; // a triangle goes around the point once in either direction, or not at all
     }
 
   private:
@@ -49,10 +49,10 @@ class LineSigns {
     /// through is anticlockwise.
     int crossing(const Vec3& a, const Vec3& b, bool a_above, bool b_above) const {
         if (a_above == b_above) return 0;
-        // The edge taken upward, so that both its faces compute the same.
+        // Uses the edge upward, so that both of its faces compute the same.
         const Vec3 &low = a_above ? b : a, &high = a_above ? a : b;
         const int side = orientation_3d(from_, to_, low, high);
-        if (side < 0) return 0; // the point is to the right of it
+        if (side < 0) return 0; // the point is to the right of the edge
         return a_above ? -1 : 1;
     }
 
@@ -93,12 +93,13 @@ inline bool before(const Hit& a, const Hit& b) {
     return a.t != b.t ? a.t < b.t : a.face != b.face ? a.face < b.face : a.triangle < b.triangle;
 }
 
-/// The line in the tree's frame, in float32, with boxes larger by more than what that loses.
+/// The line in the tree's frame, in float32. Boxes are enlarged by more than the rounding error.
 class LineQuery {
   public:
     LineQuery(const FaceTree& tree, const Line& line) {
         const Vec3 from = tree.local(line.from), d = (line.to - line.from) * tree.scale;
-        // The part of the line near the surface, so that float32 is enough. Numbers in [-1, 1], and a margin.
+        // The part of the line near the surface, so that float32 suffices. Its numbers are in [-1, 1], plus
+        // a margin.
         double begin = 0, end = line.ray ? HUGE_VAL : 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (d[axis] == 0) {
@@ -115,12 +116,13 @@ class LineQuery {
         const Vec3 start = from + d * begin;
         const double reach = std::max({std::abs(from.x), std::abs(from.y), std::abs(from.z)});
         const Float4 margin = Float4{} + static_cast<float>(0x1p-18 + reach * 0x1p-48);
-        // In units of the longest component, so that t is a length in the frame, at most 3.
+        // Uses units of the longest component, so that t is a length in the frame, at most 3.
         longest_ = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         length_ = static_cast<float>((end - begin) * longest_ * (1 + 1e-6)) + 1e-6F;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             double step = d[axis] / longest_;
-            if (std::abs(step) < 1e-12) step = step < 0 ? -1e-12 : 1e-12; // less than the margin, all the way
+            if (std::abs(step) < 1e-12)
+                step = step < 0 ? -1e-12 : 1e-12; // changes by less than the margin over the whole line
             inverse_[axis] = Float4{} + static_cast<float>(1 / step);
             const Float4 at = Float4{} + static_cast<float>(start[axis]);
             low_[axis] = at + margin;
@@ -131,12 +133,13 @@ class LineQuery {
 
     bool misses() const { return misses_; }
     float length() const { return length_; }
-    /// The t of the line as a length here, rounded up.
+    /// The parameter t of the line as a length in the frame, rounded up.
     float length_to(double t) const {
         return static_cast<float>((t - begin_) * longest_ * (1 + 1e-6)) + 1e-5F;
     }
 
-    /// Where the line enters each of four boxes, at least; infinity when it misses one before `end`.
+    /// Lower bounds of the lengths at which the line enters four boxes; infinity if it misses a box before
+    /// `end`.
     Float4 entries(const FaceTree::Node& node, float end) const {
         Float4 near{}, far = Float4{} + end;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -165,7 +168,7 @@ class LineWalk {
         stack_[size_++] = {0, tree.height() - 1, 0};
     }
 
-    /// Looks into one node, or calls found(triangle); found returns up to which t the search goes on. False
+    /// Visits a node, or calls found(triangle), which returns the t up to which the search continues. False
     /// at the end.
     template <class Found>
     bool step(Found&& found) {
@@ -207,7 +210,7 @@ class LineWalk {
     Entry stack_[4 * 18]; // 17 levels of four hold all indices, and the triangles; three wait at each
 };
 
-/// Searches the first hit of a line or all of them, step by step.
+/// Searches the first hit or all hits of a line, step by step.
 class LineSearch {
   public:
     LineSearch(const FaceTree& tree, const Line& line, bool all)
@@ -225,7 +228,7 @@ class LineSearch {
         });
     }
 
-    /// In order, at the end.
+    /// The hits in order, at the end of the search.
     const std::vector<Hit>& hits() {
         std::sort(hits_.begin(), hits_.end(), before);
         return hits_;
@@ -239,7 +242,8 @@ class LineSearch {
     std::vector<Hit> hits_;
 };
 
-/// A line without length meets what its point lies on, and one that is not finite nothing.
+/// False for a line without length, which meets only the faces that contain its point, and for a line that
+/// is not finite.
 inline bool is_line(const Line& line) {
     return is_finite(line.from) && is_finite(line.to) && !(line.from == line.to);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Distances to a surface that tell its sides.
+// Signed distances to a surface.
 
 #include "geometry/spatial/face_tree.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace facetmill {
 
-/// The distance of each point to the nearest triangle of the tree: positive on the side to which that looks,
-/// negative on the other; 0 for what is not finite, and where the tree is empty. In parallel, O(n log n).
+/// The distance of each point to the nearest triangle of the tree: positive on the triangle's front side,
+/// negative on its back. 0 for points that are not finite, and for an empty tree. Parallel, O(n log n).
 [[nodiscard]] std::vector<float> signed_distances(const FaceTree& tree, std::span<const Vec3> points);
 
 } // namespace facetmill

@@ -12,11 +12,12 @@ Float4 size(const Float4& x) { return greater(x, -x); }
 
 } // namespace
 
-// Rounding, with coordinates below 2 and edges below 7: products and sums leave what is along a vector right
-// to `rounding` times its length. A normal is right to 5 / 2^24 times the product of the edges: two roundings
-// of edges, one of products and one of differences, by components. One that is longer than 3 / 16 of that and
-// of the longest edge is then off by less than twice `rounding` at their ends. The foot is right to twice
-// `rounding`, which `reach` leaves room for, and the height to 4 times.
+// Rounding errors, for coordinates below 2 and edges below 7: a position along a vector is accurate to
+// `rounding` times its length. A normal is accurate to 5 / 2^24 times the product of the edges: per
+// component, two roundings of edges, one of products and one of differences. If the normal is longer than 3
+// / 16 of this product and of the longest edge, its error is below twice `rounding` at the ends of the
+// edges. The foot is accurate to twice `rounding`, for which `reach` leaves a margin, and the height to 4
+// times.
 TriangleSlabs::TriangleSlabs(const std::array<Float4x3, 3>& corners, const std::array<Float4x3, 3>& edges,
                              float square)
     : normal_(cross(edges[0], edges[1])), offset_(dot(normal_, corners[0])) {

@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// The corners of the face without the coordinate along which its normal is longest, anticlockwise, relative
+/// The corners of the face, projected along the largest component of its normal, anticlockwise, and relative
 /// to the first corner so that numbers stay small.
 std::vector<Vec2> flattened(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
@@ -75,8 +75,8 @@ std::optional<Vec2> kernel_centroid(const std::vector<Vec2>& polygon) {
     return kernel[0] + sum * (1 / (3 * area));
 }
 
-/// Adds the weights that give the point as a mixture of corner k and of the edge that the ray from the
-/// corner through the point meets beyond it. The point is in the kernel, so exactly one such edge exists.
+/// Adds the weights that give the point as a mixture of corner k and an edge. A ray from the corner through
+/// the point meets this edge. The point is in the kernel, so exactly one such edge exists.
 bool add_weights_through(const std::vector<Vec2>& polygon, std::size_t k, const Vec2& point,
                          std::vector<double>& weights) {
     const Vec2 way = point - polygon[k];

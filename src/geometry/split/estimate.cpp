@@ -16,8 +16,8 @@ constexpr double corner_limit = 2147483648.0; ///< 2^31
 /// Memory at the peak: the result, the edges of the input, and the provenance.
 constexpr double bytes_per_corner = 36;
 
-/// About how many triangles refining to max_edge makes: a triangle with all edges that long has at most
-/// sqrt(3) / 4 of its square as area, and cuts leave it smaller than that.
+/// The approximate number of triangles after refining to max_edge. A triangle with edges of this length has
+/// at most sqrt(3) / 4 of its square as area, and cuts leave smaller triangles.
 double refined_estimate(const Mesh& mesh, const SplitSettings& s) {
     constexpr double fullest = 0.3;
     return parallel_reduce(
@@ -97,7 +97,8 @@ void SplitCensus::pass(SplitMethod method, double n) {
         return set(0, corners(), 0, 0);
     case SplitMethod::bisect:
         return set(4 * triangles, quads, larger, larger_corners);
-    case SplitMethod::notch: // 4 triangles have more corners than a triangle and a quad
+    case SplitMethod::notch: // the worst case is 4 triangles, which have more corners than a triangle and a
+                             // quad
         return set(4 * triangles, 0, larger, larger_corners);
     case SplitMethod::halve:
         return set(4 * triangles, 4 * quads, larger, larger_corners);

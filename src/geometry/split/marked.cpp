@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// The faces of a mesh and which of their edges are cut.
+/// The faces of a mesh, with the marks of their edges to cut.
 struct Marked {
     const EdgeTable& table;
     const EdgeMarks& marks;
@@ -25,7 +25,8 @@ struct Marked {
     }
 };
 
-/// Triangles cut at their marked edges: across the longest first, then the halves across theirs.
+/// Cuts triangles at their marked edges: first across the longest edge, then each half across its marked
+/// edge.
 struct BisectPattern {
     Marked marked;
     const std::vector<std::uint8_t>& longest; ///< [faces] local number of the longest edge, 3: none
@@ -55,7 +56,7 @@ struct BisectPattern {
     }
 };
 
-/// A triangle by its marks: cut to the opposite corner, a triangle and a quad, or four triangles.
+/// Cuts a triangle by its marks: to the opposite corner, into a triangle and a quad, or into four triangles.
 struct NotchPattern {
     Marked marked;
 
@@ -77,7 +78,7 @@ struct NotchPattern {
         const int n = marked.count(face.mesh, face.face);
         if (n == 0) return out.face(face.at(0), face.at(1), face.at(2));
         if (n == 3) return four_triangles(face, out);
-        Index k = 0; // the one marked edge, or the one unmarked edge
+        Index k = 0; // the only marked edge, or the only unmarked edge
         while (marked.at(first + k) != (n == 1)) ++k;
         const Index a = face.at(k), b = face.at((k + 1) % 3), apex = face.at((k + 2) % 3);
         if (n == 1) {
@@ -91,10 +92,10 @@ struct NotchPattern {
     }
 };
 
-/// Quads cut between two opposite edges, plus the marks that neighbours set.
+/// Cuts quads between two opposite edges, and at the marks that neighbours set.
 struct HalvePattern {
     Marked marked;
-    const std::vector<std::uint8_t>& first_edge; ///< [faces] of quads: the first of their pair of edges
+    const std::vector<std::uint8_t>& first_edge; ///< [faces] for quads: the first of the two opposite edges
 
     bool right(Index begin, Index k) const { return marked.at(begin + (k + 1) % 4); }
     bool left(Index begin, Index k) const { return marked.at(begin + (k + 3) % 4); }
@@ -133,7 +134,7 @@ struct HalvePattern {
 /// Sets a mark from several threads at once.
 void mark(EdgeMarks& marks, Index e) { std::atomic_ref(marks[e]).store(1, std::memory_order_relaxed); }
 
-/// Whether an angle of triangle f is below the angle of that cosine.
+/// Whether an angle of triangle f is below the angle with this cosine.
 bool is_narrow(const Mesh& mesh, Index f, const Transform& to_world, double cosine_of_limit) {
     for (Index k = 0; k < 3; ++k) {
         const Vec3& p = mesh.point(3 * f + k);
@@ -154,8 +155,8 @@ std::vector<std::uint8_t> chosen_faces(const Mesh& mesh, const SplitSettings& se
     return chosen;
 }
 
-/// Marks the longest edge of every triangle that has a mark, until nothing changes. Whatever the order, the
-/// result is the least set of marks that is closed.
+/// Marks the longest edge of every triangle that has a mark, until nothing changes. The result is the
+/// smallest closed set of marks, independent of the order.
 void close_marks(const MeasuredEdges& edges, const std::vector<std::uint8_t>& longest, EdgeMarks& marks) {
     std::vector<Index> fresh;
     for (Index e = 0; e < edges.table.size(); ++e)
@@ -172,7 +173,7 @@ void close_marks(const MeasuredEdges& edges, const std::vector<std::uint8_t>& lo
     }
 }
 
-/// Where each marked edge is cut: at the foot of the bisector of the widest angle opposite to it.
+/// The position of the cut on each marked edge: the foot of the bisector of the widest opposite angle.
 std::vector<double> feet(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& marks,
                          const Transform& to_world) {
     std::vector<double> at(edges.table.size(), 0.5);
@@ -217,7 +218,7 @@ std::optional<Mesh> notched(const Mesh& mesh, const SplitSettings& settings, Spl
     parallel_for(chosen.size(), [&](std::size_t f) {
         if (!chosen[f]) return;
         const Index* e = &edges.table.corner_edge[3 * f];
-        std::size_t shortest = 3; // ties: the edge of higher vertices
+        std::size_t shortest = 3; // ties use the edge with higher vertices
         for (std::size_t k = 0; k < 3; ++k)
             if (e[k] != none && (shortest == 3 || edges.squared[e[k]] < edges.squared[e[shortest]] ||
                                  (edges.squared[e[k]] == edges.squared[e[shortest]] && e[k] > e[shortest])))
@@ -231,7 +232,7 @@ std::optional<Mesh> notched(const Mesh& mesh, const SplitSettings& settings, Spl
     return apply_pattern(mesh, &points, NotchPattern{{edges.table, marks}}, so_far.changes);
 }
 
-/// Pairs of quads that are cut between the same two edges: the new edges there coincide.
+/// Counts pairs of quads that are cut between the same two edges, so that their new edges coincide.
 std::size_t twin_cuts(const Mesh& mesh, const EdgeTable& table, const std::vector<std::uint8_t>& first_edge) {
     std::vector<std::uint64_t> pairs;
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -323,7 +324,8 @@ std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings
     return halved(mesh, settings, so_far);
 }
 
-// bisect with targets: passes over the edges that are too long, or over the longest as far as a budget goes.
+// --- bisect with targets: passes over the edges that are too long, or over the longest edges within a
+// budget.
 
 namespace {
 

@@ -6,17 +6,18 @@
 
 namespace facetmill {
 
-/// The edges of a mesh and how long they are in world space.
+/// The edges of a mesh, and their lengths in world space.
 struct MeasuredEdges {
     EdgeTable table;
-    std::vector<double> squared; ///< [edges] squared length; both faces at an edge see the same
+    std::vector<double> squared; ///< [edges] squared length, the same for all faces of the edge
 };
 [[nodiscard]] MeasuredEdges measure_edges(const Mesh& mesh, const Transform& to_world);
 
-/// One byte per edge: the edges at which faces are cut.
+/// A byte per edge: 1 if faces are cut at the edge.
 using EdgeMarks = std::vector<std::uint8_t>;
 
-/// The local number (0 to 2) of the longest edge of each triangle, 3 when it has none; ties: the lower edge.
+/// The local number (0 to 2) of the longest edge of each triangle; 3 without a longest edge. Ties use the
+/// lower edge.
 [[nodiscard]] std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& edges);
 
 /// The number of triangles that have an angle below settings.min_angle; the mesh must have only triangles.
@@ -33,7 +34,8 @@ using EdgeMarks = std::vector<std::uint8_t>;
                               const std::vector<std::uint8_t>& longest, SplitSettings::Cut cut,
                               const Transform& to_world, SplitResult& so_far);
 
-/// bisect with targets: edges longer than max_edge, the longest first when there is a budget of faces.
+/// bisect with targets: cuts edges longer than max_edge. With a budget of faces, the longest edges come
+/// first.
 [[nodiscard]] SplitResult refine(const Mesh& mesh, const SplitSettings& settings);
 
 } // namespace facetmill

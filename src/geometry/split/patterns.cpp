@@ -27,7 +27,7 @@ void place(std::vector<Vec3>& positions, const Mesh& from, const Provenance& ver
 AttributeChanges finish(Mesh& to, const Mesh& from, MeshProvenance& provenance, const EdgePoints* points) {
     Provenance &vertices = provenance.vertices, &wedges = provenance.wedges;
     vertices.identity = wedges.identity = true;
-    // The mixes were written as wedges, because patterns work with corners.
+    // Patterns wrote the mixes as wedges, because they work with corners.
     vertices.mix_offsets = wedges.mix_offsets;
     vertices.mix_weights = wedges.mix_weights;
     vertices.mix_sources.resize(wedges.mix_sources.size());

@@ -1,5 +1,5 @@
 #pragma once
-// The replacement of one face by the methods of split that cut every face alike (see below for the frame).
+// Patterns: how methods of split that cut all faces alike replace a face.
 
 #include "geometry/split/centre.hpp"
 #include "geometry/split/points.hpp"
@@ -13,8 +13,7 @@
 
 namespace facetmill {
 
-/// The size of a face's replacement: new faces and corners, points inside it (mixes) and sources of the
-/// mixes.
+/// The size of a face's replacement: new faces and corners, inner points (mixes), and sources of the mixes.
 struct PatternCounts {
     std::uint64_t faces = 0, corners = 0, mixes = 0, sources = 0;
 
@@ -35,9 +34,9 @@ struct PatternFace {
     Index first_mix; ///< wedge number of this face's first inner point
 
     Index size() const { return mesh.face_size(face); }
-    /// Wedge of corner k.
+    /// The wedge of corner k.
     Index at(Index k) const { return mesh.corners[mesh.face_begin(face) + k]; }
-    /// Wedge of point i on the edge from corner k, counted from corner k.
+    /// The wedge of point i on the edge from corner k, counted from corner k.
     Index on(Index k, int i = 1) const { return points->wedge(mesh.face_begin(face) + k, i); }
     Index inside(Index i) const { return first_mix + i; }
 };
@@ -144,7 +143,7 @@ template <class Pattern>
     return out;
 }
 
-/// Triangles into n * n triangles, quads into n x n quads, rows along the first edge.
+/// Divides triangles into n * n triangles and quads into n x n quads, in rows along the first edge.
 struct GridPattern {
     int n;
 
@@ -160,7 +159,7 @@ struct GridPattern {
         face.size() == 4 ? quad(face, out) : triangle(face, out);
     }
 
-    /// Lattice point (i, j): i steps along the first edge, j towards the third corner.
+    /// The wedge of lattice point (i, j): i steps along the first edge, j steps towards the third corner.
     Index triangle_point(const PatternFace& face, int i, int j) const {
         if (j == 0) return i == 0 ? face.at(0) : i == n ? face.at(1) : face.on(0, i);
         if (i == 0) return j == n ? face.at(2) : face.on(2, n - j);
@@ -191,7 +190,7 @@ struct GridPattern {
         }
     }
 
-    /// Lattice point (i, j): i steps along the first edge, j along the second.
+    /// The wedge of lattice point (i, j): i steps along the first edge, j steps along the second.
     Index quad_point(const PatternFace& face, int i, int j) const {
         if (j == 0) return i == 0 ? face.at(0) : i == n ? face.at(1) : face.on(0, i);
         if (j == n) return i == n ? face.at(2) : i == 0 ? face.at(3) : face.on(2, n - i);
@@ -222,7 +221,8 @@ inline void centroid(const PatternFace& face, PatternOut& out) {
     out.end_mix();
 }
 
-/// A triangle at every corner and a triangle between the middles of the edges: the grid of 2, in its order.
+/// Makes a triangle at every corner, and a triangle between the middles of the edges, in the order of
+/// GridPattern with n = 2.
 inline void four_triangles(const PatternFace& face, PatternOut& out) {
     const Index first = face.on(0), second = face.on(1), third = face.on(2);
     out.face(face.at(0), first, third);
@@ -231,7 +231,7 @@ inline void four_triangles(const PatternFace& face, PatternOut& out) {
     out.face(third, second, face.at(2));
 }
 
-/// A quad at every corner, through the middles of its edges and the centroid.
+/// Makes a quad at every corner, through the middles of its edges and the centroid.
 struct QuadsPattern {
     bool keep_triangles = false; ///< triangles become four triangles instead
 
@@ -253,7 +253,7 @@ struct QuadsPattern {
     }
 };
 
-/// A triangle on every edge, to the centroid.
+/// Makes a triangle from every edge to the centroid.
 struct CentroidPattern {
     PatternCounts counts(const Mesh& mesh, Index f) const {
         const Index n = mesh.face_size(f);
@@ -279,10 +279,11 @@ struct FanPattern {
     }
 };
 
-/// A triangle at every corner, and the polygon of the edges' middles. Corners whose two edges another face
-/// shares stay in the polygon, because the edge across them would belong to both faces.
+/// Makes a triangle at every corner, and the polygon of the edges' middles. If another face shares both
+/// edges of a corner, the corner stays in the polygon, because the edge across it would belong to both
+/// faces.
 struct VarignonPattern {
-    const std::vector<std::uint8_t>& shared; ///< [corners]
+    const std::vector<std::uint8_t>& shared; ///< [corners] 1 if another face shares both edges
 
     Index kept(const Mesh& mesh, Index f) const {
         Index n = 0;
@@ -310,7 +311,7 @@ struct VarignonPattern {
     }
 };
 
-/// The same shape at half size around the centroid, and a quad between it and every edge.
+/// Makes the same shape at half size around the centroid, and a quad between it and every edge.
 struct CorePattern {
     PatternCounts counts(const Mesh& mesh, Index f) const {
         const std::uint64_t n = mesh.face_size(f);
@@ -334,7 +335,7 @@ struct CorePattern {
     }
 };
 
-/// Quads along a diagonal.
+/// Cuts quads along a diagonal.
 struct DiagonalPattern {
     const std::vector<std::uint8_t>& at_second; ///< [faces] 1: from the second corner
 

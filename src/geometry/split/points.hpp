@@ -1,5 +1,5 @@
 #pragma once
-// New points on edges, the same for all faces that share the edge. For the methods of split.
+// New points on edges, shared by all faces of the edge, for the methods of split.
 
 #include "mesh/provenance.hpp"
 #include "mesh/topology.hpp"
@@ -9,13 +9,13 @@
 namespace facetmill {
 
 /// The points that divide edges into equal parts. Vertices are numbered after the old vertices, edge by edge
-/// and from the edge's low vertex to its high vertex. Wedges likewise, one set per pair of wedges that some
-/// face has along the edge.
+/// and from the edge's low vertex to its high vertex. Wedges follow the same order, with one set per pair of
+/// wedges along the edge.
 class EdgePoints {
   public:
     /// Each edge gets pieces - 1 points, pieces >= 1. With marks (one per edge), only marked edges get
     /// points. With at (one per edge, pieces = 2), `at` gives the parameter of each point, measured from the
-    /// edge's low vertex. Without it, points are at the middle.
+    /// edge's low vertex. Without `at`, points are at the middle.
     EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
                const std::vector<std::uint8_t>& marks = {}, std::vector<double> at = {});
 
@@ -35,7 +35,7 @@ class EdgePoints {
 
     /// Appends the points to the provenances. Leaves wedges unchanged if the mesh has no seams.
     void describe(Provenance& vertices, Provenance& wedges) const;
-    /// Appends the vertex of each wedge point; for meshes with seams.
+    /// Appends the vertex of each wedge point. Only for meshes with seams.
     void append_wedge_vertices(std::vector<Index>& wedge_vertex) const;
 
   private:
@@ -45,13 +45,13 @@ class EdgePoints {
 
     const Mesh* mesh_;
     const EdgeTable* table_;
-    int points_; ///< per edge
+    int points_; ///< number of points per edge
     Index first_wedge_;
     std::vector<Index> ranks_;   ///< [edges] number among the marked edges, or none; empty: all are marked
     std::vector<Index> bundles_; ///< [corners] number of the (edge, wedge pair); empty without seams
-    std::vector<Index> bundle_corner_; ///< [bundles] its first corner
+    std::vector<Index> bundle_corner_; ///< [bundles] the first corner
     std::vector<Index> next_;          ///< [corners] the next corner in the face; only with seams
-    std::vector<double> at_;           ///< [edges] or empty: where the point is
+    std::vector<double> at_;           ///< [edges] position of the point; empty: at the middle
     std::size_t edge_count_ = 0, bundle_count_ = 0;
 };
 

@@ -16,7 +16,7 @@ namespace facetmill {
 
 namespace {
 
-// The neighbourhood used by subdivision masks, on a manifold, oriented mesh.
+// The neighbourhoods for subdivision masks, on a manifold, oriented mesh.
 
 /// Halfedges are corners: corner c runs from its vertex to the next corner's. A feature edge has one
 /// face, or its two faces meet at more than the feature angle.
@@ -26,11 +26,11 @@ class SmoothRings {
 
     const Mesh& mesh;
     const EdgeTable& edges;
-    VertexLists corners; ///< at vertices
+    VertexLists corners; ///< corners at each vertex
 
     Index next(Index c) const { return next_[c]; }
     Index previous(Index c) const { return previous_[c]; }
-    /// The corner that runs the other way, or none at a boundary.
+    /// The corner that runs in the opposite direction, or none at a boundary.
     Index twin(Index c) const { return twin_[c]; }
     Index from(Index c) const { return mesh.vertex(c); }
     Index to(Index c) const { return mesh.vertex(next_[c]); }
@@ -96,7 +96,8 @@ bool SmoothRings::is_smooth(Index v) const {
     return features_at(v).count < 2;
 }
 
-/// A vertex on a curve of feature edges: the cubic B-spline's rule along it. Corners and ends stay.
+/// The position of a vertex on a curve of feature edges, by the cubic B-spline's rule. None for corners and
+/// ends, which stay.
 std::optional<Vec3> on_curve(const SmoothRings& rings, Index v) {
     const auto features = rings.features_at(v);
     const auto& p = rings.mesh.positions;
@@ -139,7 +140,8 @@ Vec3 loop_edge(const SmoothRings& rings, Index e) {
            (p[rings.from(rings.previous(at[0]))] + p[rings.from(rings.previous(at[1]))]) * 0.125;
 }
 
-/// (Q + R + (n - 2) P) / n, Q the mean of the faces' centroids and R of the neighbours.
+/// The position (Q + R + (n - 2) P) / n. Q is the mean of the faces' centroids, and R the mean of the
+/// neighbours.
 Vec3 catmull_clark_vertex(const SmoothRings& rings, const std::vector<Index>& faces, Index v) {
     const Star star(rings, v);
     if (star.n == 0) return rings.mesh.positions[v];
@@ -198,7 +200,7 @@ Vec3 butterfly_edge(const SmoothRings& rings, Index e) {
     const auto irregular = [&](Index v) { return rings.is_smooth(v) && Star(rings, v).n != 6; };
     Vec3 sum;
     int masks = 0;
-    for (const Index c : at) // each of the two runs starts from another end
+    for (const Index c : at) // the two runs start from different ends
         if (irregular(rings.from(c))) {
             sum += butterfly_irregular(rings, c);
             ++masks;
@@ -255,14 +257,14 @@ Mesh catmull_clark_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRi
     return finer;
 }
 
-/// A triangle from each edge to the point inside its face. Where the edge may turn, the triangle joins the
+/// A triangle from each edge to the point inside its face. If the edge may turn, the triangle joins the
 /// points inside the two adjacent faces instead. Odd passes cut faces at boundaries in three along the
 /// boundary. The points of the boundary edge then replace the point inside.
 struct Sqrt3Pattern {
     const SmoothRings& rings;
     const EdgePoints& points;
-    std::vector<std::uint8_t> boundary; ///< [faces] which of its edges is cut, 3: none
-    std::vector<Index> before;          ///< [faces] how many points are inside earlier faces
+    std::vector<std::uint8_t> boundary; ///< [faces] the cut edge; 3: none
+    std::vector<Index> before;          ///< [faces] the number of points inside earlier faces
 
     PatternCounts counts(const Mesh&, Index f) const {
         return boundary[f] < 3 ? PatternCounts{3, 9, 0, 0} : PatternCounts{3, 9, 1, 3};
@@ -274,7 +276,7 @@ struct Sqrt3Pattern {
         if (k == 3) return face.first_mix - before[face.face] + before[f];
         return points.wedge(3 * f + k, c == 3 * f + (k + 1) % 3 ? 2 : 1);
     }
-    /// No feature edge, no seam, no boundary between primitives.
+    /// True unless the edge is a feature edge, a seam, or a boundary between primitives.
     bool may_turn(Index c) const {
         const Index twin = rings.twin(c);
         const Mesh& mesh = rings.mesh;

@@ -22,10 +22,10 @@ namespace {
 /// The properties of a method, except the way it splits.
 struct MethodRow {
     SplitMethod method;
-    const char* name;  ///< as users write it
-    Index max_corners; ///< of the faces that it takes; 0: any
-    bool halves_edges; ///< every face becomes as many as it has corners, or four, and all edges are cut
-    bool smooth;       ///< it moves the surface
+    const char* name;  ///< the name as users write it
+    Index max_corners; ///< largest accepted number of corners; 0: any
+    bool halves_edges; ///< every face with n corners becomes n or four faces, and all edges are cut
+    bool smooth;       ///< the method moves the surface
 };
 
 constexpr auto method_rows = [] {
@@ -172,7 +172,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
         Mesh finer = split_once(next_from, settings, result);
         if (settings.min_angle > 0) {
             if (finer.face_count() == 0) {
-                result.stop = Stop::target; // none is narrow
+                result.stop = Stop::target; // no triangle is narrow
                 break;
             }
             const std::size_t narrow = narrow_faces(triangulated(finer), settings);
@@ -245,8 +245,8 @@ SplitResult grid_split(const Mesh& mesh, int n, const SplitWords& words) {
 namespace {
 
 struct Extremes {
-    double squared = 0; ///< of the longest edge
-    double cosine = -1; ///< of the smallest angle
+    double squared = 0; ///< squared length of the longest edge
+    double cosine = -1; ///< cosine of the smallest angle
 };
 
 Extremes join(Extremes a, const Extremes& b) {

@@ -52,15 +52,17 @@ struct SplitSettings {
                       ///< thousandth of the edge from its ends at least); not with a target
     };
     SplitMethod method = SplitMethod::midpoint;
-    int passes = 1;              ///< how many times; at least 0. With a target: the maximum
+    int passes = 1;              ///< number of passes, at least 0; with a target, the maximum
     int grid = 2;                ///< pieces per edge of SplitMethod::grid; at least 1
-    Cut cut = Cut::longest_edge; ///< of bisect
-    double max_edge = 0;         ///< target, world units: until no edge is longer (0: none)
-    double min_angle = 0;        ///< target, radians: only triangles with an angle below (0: none)
-    std::uint64_t max_faces = 0; ///< target: longest edges first, and never more faces than this (0: none)
-    std::optional<double> feature_angle = {}; ///< smooth methods, radians: edges whose faces meet at a larger
-                                              ///< angle stay sharp (none: only boundaries do)
-    Transform to_world = {};                  ///< part space -> world, where lengths and angles are measured
+    Cut cut = Cut::longest_edge; ///< position of bisect's cut
+    double max_edge = 0;         ///< target in world units: no edge is longer (0: no target)
+    double min_angle =
+        0; ///< target in radians: splits only triangles with an angle below this (0: no target)
+    std::uint64_t max_faces =
+        0; ///< target: the longest edges are cut first, up to this number of faces (0: no target)
+    std::optional<double> feature_angle = {}; ///< for smooth methods, in radians: edges whose faces meet at a
+                                              ///< larger angle stay sharp (empty: only boundaries)
+    Transform to_world = {}; ///< from the part's space to the world, where lengths and angles are measured
     SplitWords words = {};
 };
 
@@ -74,64 +76,63 @@ struct SplitResult {
     };
     Mesh mesh;
     AttributeChanges changes; ///< changes of the attributes
-    std::size_t added = 0;    ///< faces more than before
-    int passes = 0;           ///< done
+    std::size_t added = 0;    ///< number of added faces
+    int passes = 0;           ///< completed passes
     Stop stop = Stop::passes;
-    std::size_t folded = 0; ///< faces whose pieces lie over each other (folding_faces), summed over passes
-    std::size_t narrow = 0; ///< with min_angle: remaining triangles that have a smaller angle
+    std::size_t folded = 0;        ///< faces whose pieces overlap (folding_faces), summed over passes
+    std::size_t narrow = 0;        ///< with min_angle: remaining triangles that have a smaller angle
     std::size_t narrow_before = 0; ///< such triangles before the split
     std::size_t shared = 0; ///< spots where two faces share two edges, so that their new edges coincide and
                             ///< have more than two faces; summed over passes
 };
 
-/// The mesh with every face split. Conforming on open, closed and non-manifold meshes: a point on an edge is
-/// one vertex for all its faces, with one wedge per pair of wedges (seams stay seams). Old vertices keep
-/// their numbers and, except with smooth methods, their positions. New faces replace the old face in order
-/// and keep its direction, so a closed mesh stays closed. Euler's number and manifoldness stay too, except
-/// where two faces share two edges: their new edges merge (SplitResult::shared). varignon leaves such
-/// corners whole; diagonal uses the other diagonal where that is sound.
-/// Concave faces are cut to their centre (centre_weights), so that no new face is flipped.
-/// SplitResult::folded counts the exceptions: faces without a kernel, and concave faces cut by grid, halve
-/// or varignon.
-/// Closures match a face to the points that neighbours put on its edges. midpoint, quads, varignon and grid
-/// put the same points on every edge, and centroid, fan, core and diagonal put none. bisect marks the
-/// longest edge of each triangle that is split or has a marked edge, until nothing changes (Rivara; ties:
-/// the edge of lower vertices). Triangles are cut at their longest edge first, then the halves at theirs.
-/// Cut::widest_angle uses the triangle with the wider angle at the edge (ties: the lower face). notch marks
-/// two edges of each triangle: one mark cuts it to the opposite corner, two give a triangle and a quad,
-/// three four triangles. Between passes triangulated() cuts the quads. halve treats triangles as notch does;
-/// a quad with one more mark loses a triangle from that half, with two more it becomes four quads around its
-/// centroid.
-/// Targets end at SplitSettings::passes at the latest; SplitResult::stop has the reason. max_edge: bisect
-/// marks only longer edges; midpoint, quads and the smooth methods that make four faces split all faces.
-/// min_angle: bisect or notch only split narrower triangles (and the closure). With bisect no angle falls
-/// below half the smallest (I. Rosenberg and F. Stenger, "A lower bound on the angles of triangles
-/// constructed by bisecting the longest side", 1975). A pass that would make more narrow triangles is not
-/// done. max_faces: bisect cuts the longest edges first; other methods do the passes that fit.
-/// Smooth methods have the masks of OpenMesh's subdividers, which test them (sources: is_smooth). They
-/// require a manifold, consistently oriented mesh. Feature edges follow H. Hoppe et al., "Piecewise smooth
-/// surface reconstruction" (1994): cubic B-spline along them (butterfly: four-point curve). A vertex with
-/// three or more feature edges, or at the end of a boundary, stays. A vertex with a single feature edge is
-/// smooth.
-/// Requires a valid mesh. Throws stage (E-POLYGON) for faces of too many corners: above four for grid, halve
-/// and diagonal, above three for bisect, notch, loop, sqrt3 and butterfly. Throws stage (E-MANIFOLD) for
-/// smooth methods on unsuitable meshes, usage (E-CONFLICT) for targets that the method cannot reach, and
-/// limit, before building, beyond 2^31 corners (E-LIMIT) or memory (E-MEMORY). Vertex and wedge attributes
-/// are interpolated (smooth methods recompute normals); face attributes are copied. After P. Bourke,
-/// "Splitting facets" (1991).
+/// Splits every face. Open, closed and non-manifold meshes stay conforming: a point on an edge is a single
+/// vertex for all its faces, with a wedge per pair of wedges (seams stay seams). Old vertices keep their
+/// numbers and, except with smooth methods, their positions. New faces replace the old face in order and
+/// keep its direction, so a closed mesh stays closed. The Euler characteristic and manifoldness stay too,
+/// except where two faces share two edges, whose new edges merge (SplitResult::shared). varignon leaves such
+/// corners whole; diagonal uses the other diagonal if that is sound. Concave faces are cut to their centre
+/// (centre_weights), so that no new face is flipped. SplitResult::folded counts the exceptions: faces
+/// without a kernel, and concave faces cut by grid, halve or varignon. Closures match a face to the points
+/// that neighbours put on its edges. midpoint, quads, varignon and grid put the same points on every edge,
+/// and centroid, fan, core and diagonal put none. bisect marks the longest edge of each triangle that is
+/// split or has a marked edge, until nothing changes (Rivara; ties: the edge of lower vertices). Triangles
+/// are cut at their longest edge first, then the halves at theirs. Cut::widest_angle uses the triangle with
+/// the wider angle at the edge (ties: the lower face). notch marks two edges of each triangle: one mark cuts
+/// it to the opposite corner, two give a triangle and a quad, three four triangles. Between passes
+/// triangulated() cuts the quads. halve treats triangles as notch does; a quad with one more mark loses a
+/// triangle from that half, with two more it becomes four quads around its centroid. Targets end at
+/// SplitSettings::passes at the latest; SplitResult::stop has the reason. max_edge: bisect marks only longer
+/// edges; midpoint, quads and the smooth methods that make four faces split all faces. min_angle: bisect or
+/// notch only split narrower triangles (and the closure). With bisect no angle falls below half the smallest
+/// (I. Rosenberg and F. Stenger, "A lower bound on the angles of triangles constructed by bisecting the
+/// longest side", 1975). A pass that would make more narrow triangles is not done. max_faces: bisect cuts
+/// the longest edges first; other methods do the passes that fit. Smooth methods have the masks of
+/// OpenMesh's subdividers, which test them (sources: is_smooth). They require a manifold, consistently
+/// oriented mesh. Feature edges follow H. Hoppe et al., "Piecewise smooth surface reconstruction" (1994):
+/// cubic B-spline along them (butterfly: four-point curve). A vertex with three or more feature edges, or at
+/// the end of a boundary, stays. A vertex with a single feature edge is smooth. Requires a valid mesh.
+/// Throws a stage error (E-POLYGON) for faces of too many corners: above four for grid, halve and diagonal,
+/// above three for bisect, notch, loop, sqrt3 and butterfly. Throws a stage error (E-MANIFOLD) for smooth
+/// methods on unsuitable meshes, a usage error (E-CONFLICT) for targets that the method cannot reach, and a
+/// limit error, before building, beyond 2^31 corners (E-LIMIT) or memory (E-MEMORY). Vertex and wedge
+/// attributes are interpolated (smooth methods recompute normals); face attributes are copied. After P.
+/// Bourke, "Splitting facets" (1991).
 [[nodiscard]] SplitResult split(const Mesh& mesh, const SplitSettings& settings);
 
-/// The refusal (E-CONFLICT) of targets that the method cannot reach; split throws it before all else.
+/// The refusal (E-CONFLICT) of targets that the method cannot reach. split throws it before other errors.
 [[nodiscard]] std::optional<Refusal> check_split_targets(const SplitSettings& settings);
 
-/// split with SplitMethod::grid: each triangle into n * n, each quad into n x n; shared edges get the same n
+/// split with SplitMethod::grid: each triangle becomes n * n triangles, and each quad n x n quads. Shared
+/// edges get the same n
 /// - 1 points. n = 1 returns the mesh.
 [[nodiscard]] SplitResult grid_split(const Mesh& mesh, int n, const SplitWords& words = {});
 
 /// The edge lengths and angles of a mesh, in world space.
 struct FacetShape {
-    double longest_edge = 0;   ///< 0 without faces
-    double smallest_angle = 0; ///< radians, of all corners between edges of some length; 0 without faces
+    double longest_edge = 0; ///< 0 without faces
+    double smallest_angle =
+        0; ///< in radians, over all corners between edges of nonzero length; 0 without faces
 };
 [[nodiscard]] FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
 /// The mean over all corners of the edge that begins there; 0 without faces.

@@ -12,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-/// A corner at one end of an edge, and the vertex that its other edge goes to.
+/// A corner at an end of an edge, and the far vertex of the corner's other edge.
 struct Turn {
     Index beyond, corner;
     bool operator<(const Turn& b) const { return beyond != b.beyond ? beyond < b.beyond : corner < b.corner; }
@@ -47,8 +47,8 @@ void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<In
 
 Index other_end(const EdgeTable::Edge& edge, Index end) { return edge.low == end ? edge.high : edge.low; }
 
-/// Whether triangles may share two edges, decided from a third of the edges if all have two faces: such
-/// triangles share all three, including the first edge of the lower triangle.
+/// Whether triangles may share two edges. If all edges have two faces, a third of the edges decides: such
+/// triangles share all three edges, including the first edge of the lower triangle.
 bool may_share(const Mesh& mesh, const EdgeTable& edges) {
     const auto apex = [&](Index c) { return mesh.vertex(c - c % 3 + (c % 3 + 2) % 3); };
     return parallel_reduce(
@@ -92,7 +92,8 @@ std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edge
         std::vector<Turn> room;
         for (auto e = static_cast<Index>(begin); e < end; ++e)
             visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
-                if (turns[0].beyond < other_end(edges.edges[e], at)) return; // visited from its other edge
+                if (turns[0].beyond < other_end(edges.edges[e], at))
+                    return; // this spot is visited from its other edge
                 for (const Turn& t : turns) shared[t.corner] = 1;
             });
     });

@@ -1,6 +1,6 @@
 #pragma once
 // Spots of a mesh where cutting each face separately fails: faces that share two edges, and faces that do
-// not contain their pieces. For the methods of split.
+// not contain their pieces. Used by the methods of split.
 
 #include "geometry/split/split.hpp"
 #include "mesh/quad_diagonal.hpp"
@@ -8,12 +8,12 @@
 
 namespace facetmill {
 
-/// One byte per corner: 1 if another face also has both edges of the corner, so that a new edge between the
-/// two would belong to both faces. O(corners), parallel.
+/// A byte per corner: 1 if another face also has both edges of the corner. A new edge between the two edges
+/// would then belong to both faces. O(corners), parallel.
 [[nodiscard]] std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges);
 
-/// The number of vertices with such corners of at least two triangles and a marked edge (no marks: all
-/// edges): the new edges of the triangles coincide. Only counted vertices (empty: all).
+/// The number of vertices at which new edges of triangles coincide: at least two triangles have such
+/// corners, with a marked edge (without marks: any edge). Only flagged vertices count (empty: all).
 [[nodiscard]] std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges,
                                       const std::vector<std::uint8_t>& marks,
                                       const std::vector<std::uint8_t>& counted = {});

@@ -356,7 +356,7 @@ std::size_t buried_components(const Mesh& solid, const EdgeTable& edges) {
                              [&](Index f, int way) { around += components.of_face[f] == p ? 0 : way; });
             buried[p] = around != (volume[p] < 0 ? 1 : 0);
         },
-        64); // one ray per component
+        64); // each component gets a ray
     return static_cast<std::size_t>(std::count(buried.begin(), buried.end(), 1));
 }
 
@@ -503,9 +503,7 @@ ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
         same.changes = kept_changes(mesh.attributes);
         return same;
     }
-    const Connectivity connectivity = connectivity_of(mesh);
-    if (connectivity.crowded_edges == 0 && connectivity.non_manifold_vertices == 0)
-        return thicken_sheets(mesh, s);
+    if (connectivity_of(mesh).is_manifold()) return thicken_sheets(mesh, s);
     return thicken_sheets(split_non_manifold(mesh), s);
 }
 

@@ -14,7 +14,7 @@ namespace {
 using TileCell = std::array<std::int64_t, 3>;
 
 struct CellRange {
-    double low = -HUGE_VAL, high = HUGE_VAL; ///< cells
+    double low = -HUGE_VAL, high = HUGE_VAL; ///< range of cells
 };
 
 class Tiler {
@@ -25,8 +25,8 @@ class Tiler {
                 throw Error(ErrorKind::usage, "E-TILE", "a tile's size must be above zero");
     }
 
-    /// within: the cells along this axis that the cuts so far leave. A point that rounding moves beyond its
-    /// cut plane stays on its side of it, so every cut leaves fewer cells and the recursion ends.
+    /// within: the remaining range of cells along this axis. A point that rounding moves beyond its cut
+    /// plane stays on its side of it, so every cut leaves fewer cells and the recursion ends.
     TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, TileCell cell, CellRange within = {}) {
         if (size_of(mesh) == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
@@ -44,8 +44,8 @@ class Tiler {
         settings.keep = Keep::both;
         settings.memory = std::move(memory);
         ClipResult halves = clip(std::move(mesh), settings);
-        // A mesh that the plane only touches may extend over it by rounding in the world: it belongs to the
-        // neighbouring cell.
+        // Due to rounding in the world, a mesh that the plane only touches may extend beyond it. It belongs
+        // to the neighbouring cell.
         if (size_of(halves.front) == 0 || size_of(halves.back) == 0)
             return one_side(std::move(halves), axis, cell, middle, within);
         TileResult front, back;
@@ -63,8 +63,8 @@ class Tiler {
     /// The number of elements to cut: faces, or the points of a cloud.
     std::size_t size_of(const Mesh& mesh) const { return cloud_ ? mesh.vertex_count() : mesh.face_count(); }
 
-    /// The border between cells that can be halved evenly most often, 0 before all. So an edge on a border
-    /// is cut in the same order in both neighbours, and its points are rounded alike.
+    /// The first border to cut: the index divisible by the highest power of two, with 0 first of all. So an
+    /// edge on a border is cut in the same order in both neighbours, and its points are rounded identically.
     static double first_plane(const CellRange& cells) {
         double best = cells.low + 1;
         for (double step = 2; best != 0; step *= 2) {
@@ -104,12 +104,12 @@ class Tiler {
                         fmt::format("a part would be cut into about {:.3g} rows of tiles along one axis",
                                     r.high - r.low + 1),
                         "choose a larger size");
-        // The rounded planes themselves decide.
+        // Compares with the rounded planes.
         while (a.origin + r.low * a.size > least) --r.low;
         while (a.origin + (r.low + 1) * a.size <= least) ++r.low;
         while (a.origin + (r.high + 1) * a.size < most) ++r.high;
         if (cloud_ && a.origin + (r.high + 1) * a.size <= most)
-            ++r.high; // a point on a plane is in front of it
+            ++r.high; // a point on a plane counts as in front of it
         while (!cloud_ && r.high > r.low && a.origin + r.high * a.size >= most) --r.high;
         return r;
     }
@@ -120,7 +120,8 @@ class Tiler {
         const TileAxis& a = settings_.axes[axis];
         const CellRange cells = cells_of(mesh, a);
         TileResult whole;
-        if (front ? cells.low < middle : cells.high >= middle) { // by rounding, or with isolated vertices
+        if (front ? cells.low < middle
+                  : cells.high >= middle) { // may occur by rounding, or with isolated vertices
             cell[a.axis] = static_cast<std::int64_t>(front ? middle : middle - 1);
             whole = split(std::move(mesh), halves.memory, axis + 1, cell);
         } else {
@@ -165,7 +166,7 @@ class Tiler {
     }
 
     const TileSettings& settings_;
-    const bool cloud_; ///< a mesh without faces: its points are sorted into the cells
+    const bool cloud_; ///< the mesh has no faces, so its points are sorted into the cells
     std::atomic<std::size_t> made_ = 0;
 };
 

@@ -30,15 +30,15 @@ Contours outline_of(const std::vector<Vec2>& ring) {
     return contours;
 }
 
-/// Whether the outline winds around points more than once or both ways, or touches itself so that its
-/// triangulation needs further vertices.
+/// Whether the outline winds around points more than once or in both directions, or touches itself so that
+/// its triangulation needs more vertices.
 bool crosses(const std::vector<Vec2>& ring, polygon::Kind kind) {
     if (kind != polygon::Kind::complex) return kind == polygon::Kind::self_intersecting;
     return fill(outline_of(ring)).triangles.size() != ring.size() - 2;
 }
 
-/// Whether the diagonal from the first corner of a quad separates the other two corners, seen along the axis
-/// nearest to its normal: then no edges cross. So most faces need only two signs.
+/// Whether the diagonal from the first corner of a quad separates the other two corners, projected along the
+/// axis nearest to its normal. Then no edges cross. So most faces need only two signs.
 bool is_parted_quad(std::span<const Vec3> p) {
     if (p.size() != 4) return false;
     const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
@@ -71,10 +71,10 @@ Contours flat_outline(const Mesh& mesh, Index f) {
     return outline_of(polygon::flattened(corners));
 }
 
-/// Faces whose outlines cross or touch themselves other than along bridges to holes.
+/// Faces whose outlines cross or touch themselves, except along bridges to holes.
 struct Found {
     std::vector<Index> in_plane;
-    std::size_t in_no_plane = 0; ///< as seen along the axis nearest to their normal
+    std::size_t in_no_plane = 0; ///< projected along the axis nearest to their normal
 };
 
 Found find_crossing_faces(const Mesh& mesh) {
@@ -140,7 +140,7 @@ class OutlineSplitter {
         return std::abs(d.x) > std::abs(d.y) ? (p.x - a.x) / d.x : (p.y - a.y) / d.y;
     }
 
-    /// One vertex for each crossing of the same edges of the mesh, whichever face reports it.
+    /// The vertex for a crossing of two edges of the mesh. All faces that report the crossing share it.
     Index vertex_for(const std::vector<Index>& corners, const Provenance::Edge& at) {
         std::vector<Index> edges;
         edges.reserve(corners.size());
@@ -162,12 +162,13 @@ class OutlineSplitter {
     const Mesh& mesh_;
     EdgeTable edges_;
     std::map<std::vector<Index>, Index> made_;
-    std::set<std::pair<Index, Index>> done_; ///< edge, vertex
+    std::set<std::pair<Index, Index>> done_; ///< pairs of edge and vertex
     std::vector<Provenance::Edge> added_;
     std::vector<Insertion> insertions_;
 };
 
-using FaceTriangles = std::vector<std::array<Index, 3>>; ///< corners of a face, counted from its first
+using FaceTriangles =
+    std::vector<std::array<Index, 3>>; ///< corners are numbered from the face's first corner
 
 /// Whether the triangles are bounded by the face's edges, vertex by vertex.
 bool bounded_by_face(const Mesh& mesh, Index f, const FaceTriangles& triangles) {
@@ -223,12 +224,13 @@ class FaceFiller {
     }
 
   private:
-    /// Empty when the face cannot be filled without opening the surface.
+    /// Empty if the face cannot be filled without opening the surface.
     FaceTriangles filling_of(Index f) {
         const Filling filling = fill(flat_outline(mesh_, f));
-        if (!filling.added.empty()) return {}; // crossings of rounded crossings
+        if (!filling.added.empty()) return {}; // edges cross again after rounding the crossings
         FaceTriangles once = filling.triangles;
-        once.erase(std::unique(once.begin(), once.end()), once.end()); // they are sorted
+        once.erase(std::unique(once.begin(), once.end()),
+                   once.end()); // equal triangles are adjacent after sorting
         if (stands_alone(f))
             return once; // coincident corners may have several vertices: no neighbour is affected
         if (!bounded_by_face(mesh_, f, filling.triangles)) return {};

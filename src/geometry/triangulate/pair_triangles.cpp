@@ -72,7 +72,7 @@ std::vector<Candidate> candidates(const Mesh& mesh, const EdgeTable& edges, cons
 PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
     const EdgeTable edges = build_edges(mesh);
     const std::vector<Index> face = corner_faces(mesh);
-    std::vector<Index> edge_of(mesh.face_count(), none); // the edge that a face is merged across
+    std::vector<Index> edge_of(mesh.face_count(), none); // [faces] the edge across which the face is merged
     for (const Candidate& c : candidates(mesh, edges, face, settings)) {
         const auto corners = edges.corners_of(c.edge);
         Index &first = edge_of[face[corners[0]]], &second = edge_of[face[corners[1]]];
@@ -88,8 +88,7 @@ PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
             result.triangles += wedges.size() == 3;
         } else {
             const auto corners = edges.corners_of(edge_of[f]);
-            if (face[std::min(corners[0], corners[1])] != f)
-                continue; // its partner, which came before, became the quad
+            if (face[std::min(corners[0], corners[1])] != f) continue; // its earlier partner became the quad
             const Quad q = quad_of(mesh, face, corners[0], corners[1]);
             out.corners.insert(out.corners.end(), q.begin(), q.end());
             ++result.quads;

@@ -13,7 +13,7 @@ namespace {
 
 using polygon::Kind;
 using polygon::Ring;
-using Triangle = std::array<Index, 3>; ///< corners of a face, counted from its first
+using Triangle = std::array<Index, 3>; ///< corners are numbered from the face's first corner
 
 int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
 
@@ -24,7 +24,7 @@ bool in_sector(const Vec2& p, const Vec2& out, const Vec2& x, const Vec2& in) {
         return turn(p, a, b) == 0 && dot(a - p, b - p) > 0;
     };
     if (same(x, out)) return true;
-    if (same(out, in)) return true; // a spike: all around
+    if (same(out, in)) return true; // a spike has the full angle
     if (same(x, in)) return false;
     const bool after_out = turn(p, out, x) > 0, before_in = turn(p, x, in) > 0;
     return turn(p, out, in) > 0 ? after_out && before_in : after_out || before_in;
@@ -65,7 +65,7 @@ class FaceCutter {
             triangles = {{0, 1, 2}, {0, 2, 3}};
     }
 
-    /// False when the corners do not enclose each of their points once, anticlockwise.
+    /// False if the corners do not wind around each enclosed point once, anticlockwise.
     bool delaunay() {
         const Ring ring = flat_;
         const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
@@ -76,8 +76,8 @@ class FaceCutter {
         return true;
     }
 
-    /// Of the corners that coincide with a triangle's k-th, returns the corner whose sector contains the
-    /// triangle.
+    /// Among the corners that coincide with the triangle's k-th corner, returns the corner whose sector
+    /// contains the triangle.
     Index corner(const Triangle& t, std::size_t k) const {
         const Vec2 &p = flat_[t[k]], &next = flat_[t[(k + 1) % 3]];
         const auto n = static_cast<Index>(flat_.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Triangulates faces of any kind, and counts the kinds of face of a mesh.
+// Triangulates faces of any kind, and counts the kinds of faces.
 
 #include "geometry/polygon/polygon.hpp"
 #include "mesh/mesh.hpp"
@@ -10,13 +10,13 @@
 
 namespace facetmill {
 
-/// The types of polygon of P. Bourke, "Polygon types" (1993), over a mesh's faces, each seen along the
+/// The types of polygon of P. Bourke, "Polygon types" (1993), for a mesh's faces, each projected along the
 /// coordinate axis nearest to its normal.
 struct FaceKinds {
-    std::array<std::size_t, polygon::kinds> of_kind{}; ///< by polygon::Kind
+    std::array<std::size_t, polygon::kinds> of_kind{}; ///< counts by polygon::Kind
     std::size_t non_planar = 0;                        ///< farther from their plane than the tolerance
     double deviation = 0;                              ///< the largest polygon::plane_deviation, mesh units
-    Index worst = none;                                ///< the first face that far from its plane
+    Index worst = none;                                ///< the first face with this deviation
 
     std::size_t count(polygon::Kind kind) const { return of_kind[static_cast<std::size_t>(kind)]; }
 };
@@ -39,41 +39,41 @@ bool is_planar(std::span<const Vec3> corners, double deviation, double planar = 
 struct TriangulateResult {
     Mesh mesh;
     AttributeChanges changes;
-    FaceKinds kinds;      ///< of the faces that came in
-    std::size_t cut = 0;  ///< faces that became several triangles
-    std::size_t fans = 0; ///< among them, self-intersecting or without area: cut as fans
+    FaceKinds kinds;     ///< kinds of the input faces
+    std::size_t cut = 0; ///< faces that became several triangles
+    std::size_t fans =
+        0; ///< the part of these that was cut as fans, because they intersect themselves or have no area
 };
 
-/// Cuts every face of four corners or more into its corners less two triangles, without new points, so that
-/// closed stays closed and neighbours still match. Vertices, wedges and their attributes are kept, face
-/// attributes copied.
-/// - Quads that are convex: along the shorter diagonal (ties: the diagonal at the first corner).
+/// Cuts every face with n >= 4 corners into n - 2 triangles, without new points. So closed meshes stay
+/// closed, and neighbours still match. Keeps vertices, wedges and their attributes, and copies face
+/// attributes.
+/// - Convex quads: cut along the shorter diagonal (ties: the diagonal at the first corner).
 /// - Convex, concave, and complex faces (holes joined by coincident edges): constrained Delaunay of the
-/// corners, projected along the coordinate axis nearest to the area vector, even for faces that are not
-/// planar. Coincident corners keep their own wedges.
-/// - Self-intersecting faces: by windings. A fan from the first corner; its triangles may overlap each other
-/// or face backwards, and add up at every point to the winding number of the face. Faces without area: the
-/// same fan.
+///   corners, projected along the coordinate axis nearest to the area vector, even for faces that are not
+///   planar. Coincident corners keep their own wedges.
+/// - Self-intersecting faces, and faces without area: a fan from the first corner. Its triangles may overlap
+///   or face backwards; at every point they add up to the winding number of the face.
 [[nodiscard]] TriangulateResult triangulate(const Mesh& mesh);
 
 struct PairSettings {
     double min_cosine =
-        0.984807753012208; ///< of the largest angle between the two halves' normals (10 degrees)
-    double cos_corner =
-        0.866025403784439; ///< of the smallest corner a quad may have, and its largest's supplement (30)
+        0.984807753012208; ///< cosine of the largest angle between the normals of both halves (10 degrees)
+    double cos_corner = 0.866025403784439; ///< cosine of the smallest angle of a quad, and of the supplement
+                                           ///< of its largest (30 degrees)
 };
 
 struct PairResult {
     Mesh mesh;
     AttributeChanges changes;
-    std::size_t quads = 0;     ///< made
-    std::size_t triangles = 0; ///< left
+    std::size_t quads = 0;     ///< quads made
+    std::size_t triangles = 0; ///< triangles left
 };
 
-/// Merges pairs of triangles across an edge of exactly two faces, if they run along it opposite ways with
-/// the same wedges and have the same primitive. The edge whose quad has corners nearest to right angles goes
-/// first (ties: the lower edge); each triangle is used once. Vertices and wedges are kept. A quad replaces
-/// its first triangle and has its face attributes. Other faces stay unchanged.
+/// Merges pairs of triangles across an edge of exactly two faces. They must run along the edge in opposite
+/// directions, with the same wedges and the same primitive. Edges whose quads have corners nearest to right
+/// angles are merged first (ties: the lower edge). Each triangle is used once. Vertices and wedges stay. A
+/// quad replaces its first triangle and gets its face attributes. Other faces stay unchanged.
 [[nodiscard]] PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings = {});
 
 } // namespace facetmill

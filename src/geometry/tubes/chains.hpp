@@ -1,12 +1,12 @@
 #pragma once
-// Lines in the order in which they follow one another.
+// Orders lines into chains.
 
 #include "mesh/lines.hpp"
 
 namespace facetmill {
 
 struct Chain {
-    std::vector<Index> points; ///< into Lines::points; a closed chain does not repeat the first point
+    std::vector<Index> points; ///< indices of Lines::points; a closed chain does not repeat the first point
     bool closed = false;
     Index material = none;
 };
@@ -16,8 +16,8 @@ struct Chains {
     std::size_t skipped = 0; ///< lines without length, or duplicates
 };
 
-/// Uses every line once. Chains end where one line ends, more than two meet, or the material changes. They
-/// are in the order of their lowest end, closed chains last.
+/// The chains, which use every line once. They end where a single line ends, more than two lines meet, or
+/// the material changes. They are sorted by their lowest end, with closed chains last.
 [[nodiscard]] Chains chains_of(const Lines& lines);
 
 } // namespace facetmill

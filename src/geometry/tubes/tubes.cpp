@@ -13,9 +13,9 @@ namespace facetmill {
 
 namespace {
 
-constexpr double step = pi / 8; ///< of a corner that is turned through
+constexpr double step = pi / 8; ///< angle of a step around a corner
 
-/// The direction d of a line, and the up direction across it.
+/// The direction d of a line, and an up direction perpendicular to it.
 struct TubeFrame {
     Vec3 d, up;
     Vec3 aside() const { return cross(d, up); }
@@ -27,7 +27,7 @@ TubeFrame frame_along(const Vec3& d) {
     return {d, normalised(cross(other, d))};
 }
 
-/// The frame turned by the least rotation that brings its direction to d; not by half a turn.
+/// The frame turned by the smallest rotation that brings its direction to d. Half a turn is not allowed.
 TubeFrame turned(const TubeFrame& f, const Vec3& d) {
     const Vec3 up = f.up - (f.d + d) * (dot(f.up, d) / (1 + dot(f.d, d)));
     return {d, normalised(up - d * dot(up, d))};
@@ -73,7 +73,8 @@ class Sweep {
         for (std::size_t i = 0; i + 1 < n + chain.closed; ++i) {
             const Vec3 along = points_[(i + 1) % n] - points_[i];
             const double most = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
-            directions_.push_back(normalised(along / most)); // lines of any length have one
+            directions_.push_back(
+                normalised(along / most)); // scaled first, so that lines of any length have a direction
             lengths_.push_back(length(directions_.back() * most));
         }
     }
@@ -106,14 +107,14 @@ class Sweep {
             twist_ = {cosine(turn), sine(turn)};
             frame = corner(i, (i + n - 1) % n, i, frame);
         }
-        const bool twisted = std::abs(each) > 1e-12; // radians: far above rounding, and invisible
+        const bool twisted = std::abs(each) > 1e-12; // a limit in radians: far above rounding, but invisible
         for (Index k = 0; k + 1 < rings_; ++k) wall(k, k + 1, 0, twisted);
         const auto shifted = static_cast<Index>((static_cast<long>(shift) + 2L * sides_) % sides_);
         wall(rings_ - 1, 0, shifted, twisted);
         twist_ = {1, 0};
     }
 
-    /// The offset of the section's k-th point in that frame.
+    /// The offset of the section's k-th point in this frame.
     Vec3 offset(const TubeFrame& f, Index k) const {
         const auto [c, s] = section_[k];
         const double x = c * twist_[0] - s * twist_[1], y = c * twist_[1] + s * twist_[0];
@@ -164,12 +165,14 @@ class Sweep {
         return g;
     }
 
-    /// From one direction to another in even steps, without the first; up decides the way of half a turn.
+    /// The directions from one to another in even steps, without the first. `up` decides the way of half a
+    /// turn.
     static std::vector<Vec3> directions_between(const Vec3& from, const Vec3& to, const Vec3& up) {
         const Vec3 sideways = to - from * dot(from, to);
         const double sine_of_turn = length(sideways);
         const double turn = arc_tangent(sine_of_turn, dot(from, to));
-        const Vec3 other = sine_of_turn > 1e-12 ? sideways / sine_of_turn : up; // 1e-12: rounding only
+        const Vec3 other =
+            sine_of_turn > 1e-12 ? sideways / sine_of_turn : up; // below 1e-12, the sine is only rounding
         const int steps = std::max(1, static_cast<int>(std::ceil(turn / step)));
         std::vector<Vec3> all;
         for (int k = 1; k < steps; ++k) {
@@ -180,7 +183,7 @@ class Sweep {
         return all;
     }
 
-    /// The faces between two rings; the second's points are shifted by so many.
+    /// Adds the faces between two rings. The points of the second ring are shifted by `shift`.
     void wall(Index ring_a, Index ring_b, Index shift, bool triangles) {
         const Index a = base_ + ring_a * sides_, b = base_ + ring_b * sides_;
         for (Index k = 0; k < sides_; ++k) {
@@ -208,7 +211,8 @@ class Sweep {
     Index sides_;
     std::vector<Turn> section_;
     Turn twist_{1, 0};
-    std::vector<Vec3> points_, directions_; ///< of the chain; directions_[i] leads away from points_[i]
+    std::vector<Vec3> points_,
+        directions_; ///< points of the chain; directions_[i] leads away from points_[i]
     std::vector<double> lengths_;
     Index base_ = 0, rings_ = 0;
 };

@@ -61,25 +61,26 @@ void declare_moments_about(DeclareFields<MomentsAbout>& d) {
     d.field(
         "xy", [](const MomentsAbout& m) { return m.plane.xy; }, "The integral of u times v.");
     const auto self = [](const MomentsAbout& m) -> const MomentsAbout& { return m; };
-    d.object("world", self, "In the world.", declare_world_moments);
+    d.object("world", self, "The moments in world space.", declare_world_moments);
 }
 
 void declare_second_moments(DeclareFields<SectionMoments>& d) {
     const auto origin = [](const SectionMoments& s) {
         return moments_about(s, s.moments->about_origin, s.centroid());
     };
-    d.object("about_origin", origin, "About the origin of the plane, and of the world.",
+    d.object("about_origin", origin, "Moments about the origin of the plane and of world space.",
              declare_moments_about);
     const auto centroid = [](const SectionMoments& s) {
         return moments_about(s, s.moments->about_centroid, {});
     };
-    d.object("about_centroid", centroid, "About the centroid.", declare_moments_about);
+    d.object("about_centroid", centroid, "Moments about the centroid.", declare_moments_about);
 }
 
 void declare_centroid(DeclareFields<SectionMoments>& d) {
     d.field(
-        "plane", [](const SectionMoments& s) { return flat(s.moments->centroid); }, "In the plane.");
-    d.field("world", &SectionMoments::centroid, "In the world.");
+        "plane", [](const SectionMoments& s) { return flat(s.moments->centroid); },
+        "The centroid in the plane.");
+    d.field("world", &SectionMoments::centroid, "The centroid in world space.");
 }
 
 void declare_flat_axes(DeclareFields<SectionMoments>& d) {
@@ -107,7 +108,7 @@ void declare_principal_axes(DeclareFields<SectionMoments>& d) {
         "smallest", [](const SectionMoments& s) { return s.moments->axes.smallest; }, "The smallest moment.");
     const auto self = [](const SectionMoments& s) -> const SectionMoments& { return s; };
     d.object("plane", self, "The axes in the plane.", declare_flat_axes);
-    d.object("world", self, "The axes in the world.", declare_world_axes);
+    d.object("world", self, "The axes in world space.", declare_world_axes);
 }
 
 /// Declares the fields that sections and contours with moments share.
@@ -129,40 +130,41 @@ void declare_contour(DeclareFields<SectionContour>& d) {
     };
     const auto role = [](const SectionContour& c) { return c.contour->role; };
     d.choice("role", role,
-             {{to_string(ContourRole::outline), ContourRole::outline, "nothing outside it, something inside"},
-              {to_string(ContourRole::hole), ContourRole::hole, "something outside, nothing inside"},
-              {to_string(ContourRole::inner), ContourRole::inner, "something on both sides"},
+             {{to_string(ContourRole::outline), ContourRole::outline, "the solid is inside only"},
+              {to_string(ContourRole::hole), ContourRole::hole, "the solid is outside only"},
+              {to_string(ContourRole::inner), ContourRole::inner, "the solid is on both sides"},
               {to_string(ContourRole::open), ContourRole::open, "not closed: the mesh has a boundary there"}},
-             "Its role in the section: outline or hole.");
+             "The role in the section.");
     const auto parent = [](const SectionContour& c) {
         return c.contour->parent == none ? std::optional<Index>() : c.contour->parent;
     };
     d.field("parent", parent, "The number of the innermost contour around it.").only_when("there is one");
     d.field(
         "points", [](const SectionContour& c) { return c.contour->end - c.contour->begin; },
-        "The number of its points.");
+        "The number of points.");
     d.field(
-         "length", [](const SectionContour& c) { return c.contour->length; },
-         "The length of its boundary, or its own length when it is open.")
+         "length", [](const SectionContour& c) { return c.contour->length; }, "The length of the contour.")
         .unit("scene units");
     d.choice("orientation", of_closed([](const Contour& c) { return c.orientation > 0 ? 1 : -1; }),
-             {{"anticlockwise", 1, "seen against the normal"}, {"clockwise", -1, "seen against the normal"}},
-             "Its orientation.")
+             {{"anticlockwise", 1, "as seen with the normal towards the viewer"},
+              {"clockwise", -1, "as seen with the normal towards the viewer"}},
+             "The orientation of the contour.")
         .only_when(closed);
     std::vector<NamedChoice<polygon::Kind>> kinds;
     for (int k = 0; k < polygon::kinds; ++k) {
         const auto kind = static_cast<polygon::Kind>(k);
         kinds.push_back({polygon::to_string(kind), kind, ""});
     }
-    d.choice("kind", of_closed([](const Contour& c) { return c.kind; }), kinds, "Its type of polygon.")
+    d.choice("kind", of_closed([](const Contour& c) { return c.kind; }), kinds, "The type of polygon.")
         .only_when(closed);
-    d.field("area", of_closed([](const Contour& c) { return c.area; }), "Negative when it is clockwise.")
+    d.field("area", of_closed([](const Contour& c) { return c.area; }),
+            "The area. Negative if the contour is clockwise.")
         .unit("square scene units")
         .only_when(closed);
     const auto centroid = [](const SectionContour& c) {
         return c.closed() ? std::optional(c.moments()) : std::nullopt;
     };
-    d.object("centroid", centroid, "Its centroid.", declare_centroid)
+    d.object("centroid", centroid, "The centroid of the contour.", declare_centroid)
         .only_when(closed)
         .null_when("the contour covers no area");
     declare_moments(d, &SectionContour::moments);
@@ -194,7 +196,7 @@ void declare_section_fields(DeclareFields<Section>& d) {
     d.object("centroid", moments_of, "The centroid of the section.", declare_centroid)
         .null_when("a contour is open, or overlaps itself or another");
     declare_moments(d, moments_of);
-    d.list("contours", contours_of, "Its contours.", declare_contour);
+    d.list("contours", contours_of, "The contours of the section.", declare_contour);
 }
 
 } // namespace facetmill::io

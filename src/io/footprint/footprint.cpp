@@ -129,8 +129,10 @@ class GeoJson {
         Json json;
         try {
             json = parse_json(text);
-        } catch (const Json::exception& e) {
-            malformed(name_, 0, "E-GEOJSON", fmt::format("this is not JSON: {}", e.what()));
+        } catch (const Json::parse_error& e) {
+            malformed(name_, 0, "E-GEOJSON", fmt::format("this is not JSON at byte {}", e.byte));
+        } catch (const Json::exception&) {
+            malformed(name_, 0, "E-GEOJSON", "this is not JSON: a number is out of range");
         }
         geometry(json, 0);
         return std::move(rings_);
@@ -186,7 +188,7 @@ class Wkt {
     FootprintRings read() {
         while (!at_end()) {
             std::string_view type = word();
-            if (same_word(type, "SRID")) { // PostGIS writes "SRID=4326;" first
+            if (same_word(type, "SRID")) { // "SRID=4326;", as PostGIS writes it
                 while (at_ < end_ && *at_ != ';') ++at_;
                 expect(';');
                 type = word();
@@ -269,7 +271,7 @@ class Wkt {
 
     const char *at_, *end_, *begin_;
     const std::string& name_;
-    int numbers_ = 0; ///< numbers per position; 0: none read yet
+    int numbers_ = 0; ///< in the position; 0: none read
     FootprintRings rings_;
 };
 
@@ -300,7 +302,7 @@ FootprintRings parse_wkt(std::string_view text, const std::string& name) { retur
 namespace {
 
 [[noreturn]] void refuse_empty(const Input& input, const FootprintFile& file) {
-    std::string message = "there is no polygon in this file";
+    std::string message = "the file contains no polygon";
     for (const Diagnostic& w : file.warnings) message += ": " + w.message;
     malformed(input.name(), 0, "E-FOOTPRINT", std::move(message),
               file.can_state_unit
@@ -328,9 +330,9 @@ FootprintFile read_footprint(const Input& input) {
     if (const std::size_t repeated = remove_repeated(file.rings))
         file.warnings.push_back(
             {Severity::warning, "W-FOOTPRINT",
-             fmt::format("{} left out, since {} on another one",
+             fmt::format("{} left out, because {} another one",
                          repeated == 1 ? "1 ring is" : fmt::format("{} rings are", repeated),
-                         repeated == 1 ? "it lies" : "they lie"),
+                         repeated == 1 ? "it repeats" : "they repeat"),
              file_mark(input.name()), "delete the copies in the program that drew them"});
     return file;
 }

@@ -1,4 +1,5 @@
-// Reads and writes glTF. A Scene gets the document, its materials, and one part per node with triangles.
+// Reads a glTF file as a Scene (its document, its materials, and one part per node with a mesh), and
+// writes it.
 
 #include "base/fast_json.hpp"
 #include "base/hash.hpp"
@@ -6,13 +7,16 @@
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/contents/largest_pose.hpp"
+#include "io/gltf/document/check.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/document/shorten.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
+#include "io/gltf/read/kinds.hpp"
 #include "io/gltf/read/lines.hpp"
 #include "io/gltf/read/mesh.hpp"
-#include "io/gltf/read/points.hpp"
 #include "io/gltf/write/patch.hpp"
 #include "io/images/image_files.hpp"
 #include "parallel/memory.hpp"
@@ -114,26 +118,40 @@ void warn_of_instancing(const Placement& placement, ReadLog& log) {
          false});
 }
 
-/// Warns that nodes without triangles and lines do not become parts, if other nodes do.
-void warn_of_nodes_of_points(const Source& source, const std::vector<NodeFrame>& frames, ReadLog& log) {
+/// Warns that nodes with meshes without positions do not become parts, if other nodes do.
+void warn_of_nodes_without_positions(const Source& source, const std::vector<NodeFrame>& frames,
+                                     ReadLog& log) {
     std::size_t count = 0, first = 0;
     for (std::size_t n = 0; n < frames.size(); ++n) {
         if (frames[n].mesh < 0) continue;
         const JsonCursor mesh = item(source.json(), "meshes", static_cast<std::size_t>(frames[n].mesh));
-        if (has_triangles(mesh) || is_of_lines(mesh)) continue;
+        if (kind_of_mesh(mesh) != Drawn::none) continue;
         if (count++ == 0) first = n;
     }
     if (count == 0) return;
     const std::string more = count > 1 ? fmt::format(" and {} more have", count - 1) : " has";
+    log.warnings.push_back({Severity::warning,
+                            "W-SKIPPED",
+                            fmt::format("nodes[{}]{} a mesh without positions. The document keeps it "
+                                        "unchanged, but stages do not move it, and other "
+                                        "formats do not contain it",
+                                        first, more),
+                            {},
+                            "",
+                            false});
+}
+
+void warn_of_breaches(const Breaches& breaches, ReadLog& log) {
+    if (breaches.count() == 0) return;
+    const std::size_t more = breaches.count() - breaches.first().size();
     log.warnings.push_back(
         {Severity::warning,
-         "W-SKIPPED",
-         fmt::format(
-             "nodes[{}]{} no triangles and no lines: kept in the document as written, which stages do not "
-             "move and other formats do not get",
-             first, more),
+         "W-GLTF",
+         fmt::format("the document breaks {} of glTF 2.0: {}{}",
+                     breaches.count() == 1 ? "a rule" : counted(breaches.count(), "rule"),
+                     fmt::join(breaches.first(), "; "), more > 0 ? fmt::format("; and {} more", more) : ""),
          {},
-         "",
+         "export it again; the Khronos validator lists all",
          false});
 }
 
@@ -156,10 +174,9 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
          false});
 }
 
-/// of_points: the document has points, which are read separately.
 void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& frames,
-                const ReadSettings& settings, bool of_points, ReadLog& log) {
-    std::map<int, std::size_t> first_part; // by mesh; instances copy the part
+                const ReadSettings& settings, ReadLog& log) {
+    std::map<int, std::size_t> first_part; // by mesh: instances copy it
     std::size_t vertices = 0;
     double bytes = 0; // the total size of copies, because a node needs few bytes of JSON
     auto all = placements(source.json(), frames);
@@ -175,8 +192,7 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
             part.mesh = scene.parts[known->second].mesh;
         } else {
             DecodedMesh decoded =
-                decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices,
-                            {.lines = settings.lines, .points = of_points});
+                decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices);
             part.mesh = std::move(decoded.mesh);
             if (settings.weld == Weld::off) unmerge(part.mesh);
             log.warnings.insert(log.warnings.end(), decoded.warnings.begin(), decoded.warnings.end());
@@ -195,96 +211,27 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
         scene.parts.push_back(std::move(part));
         steps.next();
     }
-    if (!all.empty() && !of_points) warn_of_nodes_of_points(source, frames, log);
+    if (!all.empty()) warn_of_nodes_without_positions(source, frames, log);
     warn_of_parts_not_shown(scene, source.json(), log);
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 
-/// True if nodes have points and no node has triangles.
-bool is_of_points(const Json& document, const std::vector<NodeFrame>& frames) {
-    bool points = false;
-    for (const NodeFrame& frame : frames) {
-        if (frame.mesh < 0) continue;
-        const JsonCursor mesh = item(document, "meshes", static_cast<std::size_t>(frame.mesh));
-        if (has_triangles(mesh)) return false;
-        const JsonCursor primitives = mesh.at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i) points |= makes_points(primitives.at(i));
-    }
-    return points;
-}
-
-/// Throws a malformed-input error (E-EMPTY) for a document with primitives if none of them was read.
-void refuse_without_parts(const Json& document, const std::string& name) {
+/// Warns about a document with primitives if none of them was read.
+void warn_without_parts(const Json& document, ReadLog& log) {
     std::size_t primitives = 0;
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
         primitives += item(document, "meshes", m).at("primitives").size();
-    if (primitives > 0)
-        throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no faces: its {} primitive{} placed nowhere or without positions",
-                                name, primitives, primitives == 1 ? " is" : "s are"),
-                    "export it again, with the scene that shows them");
-}
-
-bool has_embedded_images(const Json& document) {
-    for (std::size_t i = 0; i < count_of(document, "images"); ++i)
-        if (document["images"][i].contains("bufferView")) return true;
-    return false;
-}
-
-/// True if points have morph targets, which are not read.
-bool points_have_targets(const Json& document) {
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
-        const JsonCursor primitives = item(document, "meshes", m).at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i)
-            if (makes_points(primitives.at(i)) && primitives.at(i).find("targets")) return true;
-    }
-    return false;
-}
-
-/// A document with only the materials and their textures. Warns about dropped animations, cameras and other
-/// contents.
-std::shared_ptr<const Document> materials_of(Json json, const Document& document, ReadLog& log) {
-    const bool targets = points_have_targets(json);
-    std::vector<std::string> lost = keep_materials_only(json);
-    if (targets) lost.emplace_back("morph targets");
-    if (!lost.empty())
-        log.warnings.push_back(
-            {Severity::warning,
-             "W-SKIPPED",
-             fmt::format("{} of a document of points cannot be kept: skipped", fmt::join(lost, ", ")),
-             {},
-             ""});
-    auto out = std::make_shared<Document>();
-    out->name = document.name;
-    out->files = document.files;
-    if (has_embedded_images(json))
-        out->buffers = document.buffers;
-    else
-        for (const char* list : {"accessors", "bufferViews", "buffers"}) json.erase(list);
-    out->json = to_string(json);
-    return out;
-}
-
-bool has_material(const Part& part) {
-    return std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(),
-                       [](const Primitive& p) { return p.material != none; });
-}
-
-/// Reads the parts of a document of points, and possibly lines. These parts belong to no document.
-void read_points(Scene& scene, Source& source, const std::vector<NodeFrame>& frames, const Document& document,
-                 std::size_t max_vertices, ReadLog& log) {
-    std::size_t left = max_vertices;
-    for (Part& part : scene.parts) {
-        part.document = part.node = part.source_mesh = -1;
-        part.skinned = false;
-        left -= std::min(left, part.mesh.vertex_count());
-    }
-    for (Part& part : decode_points(source, frames, left)) scene.parts.push_back(std::move(part));
-    auto materials = materials_of(source.json(), document, log);
-    if (std::any_of(scene.parts.begin(), scene.parts.end(), has_material))
-        scene.documents.push_back(std::move(materials));
-    else
-        scene.materials.clear();
+    if (primitives == 0) return;
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-SKIPPED",
+         fmt::format("{} without a node or without positions. The document stays unchanged, and stages "
+                     "ignore {}",
+                     primitives == 1 ? "its only primitive is" : counted(primitives, "primitive") + " are",
+                     primitives == 1 ? "it" : "them"),
+         {},
+         "export it again, with the nodes that show them",
+         false});
 }
 
 Chunks chunks_of(const Input& input) {
@@ -302,31 +249,31 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     Json json = parse_document(document->json);
     const ScopedDestroy after(json);
     check_asset(json);
+    Breaches breaches;
+    check_members(json, breaches);
     document->buffers = load_buffers(json, chunks.binary, input, log);
     document->files = load_images(json, input, log);
+    check_rules(json, breaches);
+    Source source(json, document->buffers);
+    source.decoded = settings.decoded;
+    if (correct_bounds(json, source, breaches)) document->json = to_string(json);
+    warn_of_breaches(breaches, log);
     if (settings.expand_instances && uses_extension(json, instancing_extension)) {
         expand_instances(json, document->buffers, log);
         document->json = to_string(json);
     }
-    if (!settings.lines && part_lines(json)) document->json = to_string(json);
+    if (part_kinds(json, !settings.lines)) document->json = to_string(json);
 
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::m);
     scene.up = settings.up.value_or(UpAxis::y);
     for (std::size_t i = 0; i < count_of(json, "materials"); ++i)
         scene.materials.push_back(read_material(item(json, "materials", i), i));
-    Source source(json, document->buffers);
-    source.decoded = settings.decoded;
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
-    const bool of_points = is_of_points(json, frames);
-    read_parts(scene, source, frames, settings, of_points, log);
-    if (of_points) {
-        read_points(scene, source, frames, *document, settings.max_vertices, log);
-        return scene;
-    }
-    if (scene.parts.empty()) refuse_without_parts(json, input.name());
+    read_parts(scene, source, frames, settings, log);
+    if (scene.parts.empty()) warn_without_parts(json, log);
     scene.documents.push_back(std::move(document));
     return scene;
 }
@@ -351,7 +298,7 @@ with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem:
     for (const auto& [name, path] : images) {
         try {
             all.push_back({name, sha256(Input::open(path).stored())});
-        } catch (const Error&) { // it will not be copied either
+        } catch (const Error&) { // the writer will not copy this image either
         }
     }
     return all;
@@ -366,7 +313,7 @@ void peek(const Input& input, FileHeader& header) {
         Json json = parse_document(chunks_of(input).json, unread);
         const ScopedDestroy after(json);
         check_asset(json);
-        part_lines(json);
+        part_kinds(json, true);
         const std::vector<Placement> placed = placements(json, node_frames(json));
         for (const auto& placement : placed) header.parts.push_back(placement.name);
         if (!drawn_materials(json, placed).empty()) header.has_materials = [] { return true; };
@@ -427,6 +374,20 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
     if (!buffer.empty()) patch.written.files.push_back({name, std::move(buffer)});
 }
 
+/// Gives the asset the copyright and the extras of the other documents that it lacks.
+void keep_assets(Patch& patch) {
+    Json& asset = patch.builder.json()["asset"];
+    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
+        if (static_cast<int>(d) == patch.base) continue;
+        const Json other = parse_document(patch.scene.documents[d]->json);
+        const auto from = other.find("asset");
+        if (from == other.end() || !from->is_object()) continue;
+        if (from->contains("copyright") && !asset.contains("copyright"))
+            asset["copyright"] = (*from)["copyright"];
+        if (from->contains("extras") && !asset.contains("extras")) asset["extras"] = (*from)["extras"];
+    }
+}
+
 /// Warns that only the meshes and materials of a second document are written.
 void warn_of_losses(Patch& patch) {
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
@@ -439,15 +400,20 @@ void warn_of_losses(Patch& patch) {
             patch.warn("W-MERGED",
                        fmt::format("of '{}' only the meshes and materials are written, without its {}",
                                    patch.scene.documents[d]->name, fmt::join(lost, ", ")),
-                       "write the parts of each file separately to keep them");
+                       fmt::format("load '{}' by itself, and write it to a file of its own to keep them",
+                                   patch.scene.documents[d]->name));
     }
 }
 
-/// A copy of the scene with NaN replaced in its attributes, because glTF forbids NaN; empty without NaN.
-std::optional<Scene> without_nan(const Scene& given, Written& written) {
-    const auto has = [](const Part& part) { return has_nan(part.mesh); };
+/// A copy of the scene with colours of faces moved to wedges, and with NaN replaced in its attributes,
+/// because glTF forbids NaN; empty without either.
+std::optional<Scene> fitted_scene(const Scene& given, Written& written) {
+    const auto has = [](const Part& part) {
+        return has_nan(part.mesh) || has_colours_of_faces_only(part.mesh);
+    };
     if (std::none_of(given.parts.begin(), given.parts.end(), has)) return {};
     Scene scene = given;
+    for (Part& part : scene.parts) move_colours_to_wedges(part.mesh);
     NanCounts all;
     for (Part& part : scene.parts) {
         for (const auto& [name, count] : nan_of_primitives(part.mesh)) all[name] += count;
@@ -461,8 +427,8 @@ std::optional<Scene> without_nan(const Scene& given, Written& written) {
 
 Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Written written;
-    const auto zeroed = without_nan(given, written);
-    const Scene& scene = zeroed ? *zeroed : given;
+    const auto fitted = fitted_scene(given, written);
+    const Scene& scene = fitted ? *fitted : given;
     BaseDocument found = base_document(scene);
     const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
@@ -489,17 +455,25 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
+    keep_assets(patch);
     warn_of_losses(patch);
+    warn_of_dropped(written, scene, "glTF");
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
     const Textures textures = settings.textures != Textures::automatic ? settings.textures
                               : binary                                 ? Textures::embed
                                                                        : Textures::copy;
     auto images = place_images(patch, stored.images, stem, textures);
+    const bool shortens = settings.draco.on || settings.quantize.on || settings.meshopt.on;
+    const auto worlds =
+        shortens ? largest_worlds(builder.current(), node_frames(builder.json())) : std::vector<Transform>();
     Bytes buffer = builder.finish(written.warnings);
-    if (!settings.names) drop_names(builder.json());
+    drop_nulls(builder.json());
+    // Without meshes, names are what animations and programs find nodes by.
+    if (!settings.names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
-    if (settings.draco.on || settings.quantize.on || settings.meshopt.on)
-        shorten(builder.json(), settings.whole_positions ? Box{} : scene.bounds());
+    if (shortens)
+        shorten(builder.json(), settings.whole_positions ? Box{} : drawn_bounds(scene, part_views(scene)),
+                worlds);
     add_main_files(patch, stem, std::move(buffer), binary);
     for (auto& image : images) written.files.push_back(std::move(image));
     written.decoded = std::make_shared<const DracoDecodings>(std::move(builder.decoded));
@@ -515,6 +489,7 @@ int sniff_glb(Span bytes) { return is_glb(bytes) ? 2 : 0; }
 /// Certain for a JSON object with "asset" near its beginning or end. Any other JSON object may be glTF.
 int sniff_gltf(Span bytes) {
     const std::string_view text = without_byte_order_mark(as_text(bytes));
+    if (is_tileset(text)) return 0;
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{') return 0;
     constexpr std::size_t near = 65536;
@@ -530,7 +505,9 @@ Capabilities abilities(std::string companion) {
     return {.transforms = true,
             .skins = true,
             .points = true,
+            .points_and_faces = true,
             .lines = true,
+            .documents = true,
             .mesh_manifold = true,
             .lods = true,
             .textures = true,

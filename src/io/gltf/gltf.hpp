@@ -24,7 +24,7 @@ class MaterialContents {
 
   private:
     const Scene& scene_;
-    std::map<int, Json> parsed_; // by document number
+    std::map<int, Json> parsed_; // parsed documents, by document number
 };
 
 /// One entry for each animation, skin, camera and light of the scene's first document with nodes:
@@ -32,15 +32,58 @@ class MaterialContents {
 /// malformed-input error, like reading.
 [[nodiscard]] Json document_contents(const Scene& scene);
 
-/// [parts] true if an animation drives the part's node or an ancestor. Such a node must keep its transform,
-/// because the transform is only valid at one time. Animations of morph weights do not count. Throws a
-/// malformed-input error when the document's nodes or animations are invalid.
+/// True if the scene is a document without meshes (nodes, cameras, animations): it has no part, and none was
+/// dropped by a stage.
+[[nodiscard]] bool is_without_meshes(const Scene& scene);
+
+/// [parts] true if an animation of its document drives its node, or an ancestor. Such a node must keep its
+/// transform, which is only valid for one moment. Morph weights do not count. Throws malformed when the
+/// document's nodes or animations are invalid.
 [[nodiscard]] std::vector<bool> animated_parts(const Scene& scene);
 
-/// [parts] for parts with several instances (EXT_mesh_gpu_instancing): the largest distance, in the world,
-/// by which writing moves points of the largest instance. 0 for other parts. Instances are float32; with
-/// meshopt's filters, rotations have 16 bits. Throws a malformed-input error when the document's nodes or
-/// instances are invalid.
+/// How viewers show a part of a document. Parts without a document are shown as they are.
+struct PartView {
+    bool animated = false;    ///< an animation moves its node or an ancestor
+    bool hidden = false;      ///< outside the scene that viewers show, or invisible (KHR_node_visibility)
+    bool lower_level = false; ///< a level of detail that replaces another node (MSFT_lod), or below one
+    bool has_levels = false;  ///< its node or an ancestor has such levels
+    bool instanced = false;   ///< several instances (EXT_mesh_gpu_instancing)
+    bool shares_node = false; ///< its node also has a camera, a light or another extension
+    Transform largest{};      ///< its space to the world, at the largest scale that an animation gives it
+
+    bool is_drawn() const { return !hidden && !lower_level; }
+};
+/// [parts]. Throws malformed when the nodes or animations of a document are invalid.
+[[nodiscard]] std::vector<PartView> part_views(const Scene& scene);
+/// The world box of what viewers draw, each part at its largest scale. Unused vertices of documents, hidden
+/// parts and lower levels of detail do not count, unless nothing else is left.
+[[nodiscard]] Box drawn_bounds(const Scene& scene, const std::vector<PartView>& views);
+/// The same; the bounds at rest if a document is invalid.
+[[nodiscard]] Box drawn_bounds(const Scene& scene);
+
+/// By how much lengths of a part have grown since its materials were made.
+struct LengthGrowth {
+    double mesh = 1;  ///< in the space of the mesh
+    double world = 1; ///< in the world
+};
+/// The growth of lengths under a transform; the geometric mean if it differs by direction.
+[[nodiscard]] double length_growth(const Transform& t);
+/// True if the growth is the same in every direction.
+[[nodiscard]] bool grows_evenly(const Transform& t);
+/// Multiplies the lengths in the parts' materials (KHR_materials_volume: the thickness is in the space of the
+/// mesh, the attenuation distance in the world). A material that parts need with different lengths gets
+/// copies. growth: [parts].
+void scale_material_lengths(Scene& scene, const std::vector<LengthGrowth>& growth);
+/// Moves the cameras and lights of each document whose parts all move alike, and scales their lengths. moved:
+/// [parts].
+void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by);
+/// [parts] the thicknesses of the volumes (KHR_materials_volume) in the world, ascending.
+[[nodiscard]] std::vector<std::vector<double>> thicknesses(const Scene& scene);
+
+/// [parts] for parts at the largest of several instances (EXT_mesh_gpu_instancing): the distance by which
+/// writing the instance may move its points, in the world. 0 for other parts. Instances are float32; with
+/// meshopt's filters, rotations have 16 bits. Throws malformed when the document's nodes or instances are
+/// invalid.
 [[nodiscard]] std::vector<double> errors_of_instances(const Scene& scene, bool filters);
 
 /// Calls visit for each part with several instances (EXT_mesh_gpu_instancing), with the transforms from its

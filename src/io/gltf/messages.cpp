@@ -23,10 +23,15 @@ const RegisterMessages gltf_messages{
      "Export the input again.", ErrorKind::malformed},
     {"E-NODES", "A glTF node is its own ancestor.", "Export the file again.", ErrorKind::malformed},
     {"E-VERSION", "The version of a glTF or GLB file is not 2.",
-     "Export it as glTF 2.0, or convert it with gltf-pipeline.", ErrorKind::malformed},
+     "Export it as glTF 2.0, or convert it: `npx gltf-pipeline -i old.gltf -o new.gltf`.",
+     ErrorKind::malformed},
     {"W-EXTENSION",
      "A glTF extension is dropped, because its data has changed or facetmill does not support it.",
      "Ignore this warning if you do not need the extension that the message names."},
+    {"W-GLTF",
+     "A glTF document breaks rules of its format that do not prevent reading. Wrong minima and maxima are "
+     "corrected.",
+     "Export the file again. The Khronos validator lists all broken rules."},
     {"W-INCOMPLETE", "A glTF primitive has extra indices after its last triangle.",
      "Ignore this warning. The exporter has a bug."},
     {"W-INSTANCES", "Instances of a glTF mesh now differ, so they are written as separate meshes.",
@@ -36,7 +41,9 @@ const RegisterMessages gltf_messages{
      "which is placed at the largest instance.",
      "Write glTF to keep the instances. `load: {path: ..., instances: expand}` makes each one a part, and "
      "`optimize: {instance: true}` makes instances of parts again."},
-    {"W-LODS", "You asked `write` to link levels of detail, but the scene has none.",
+    {"W-LODS",
+     "You asked `write` to link levels of detail, but the scene has none. Or the levels of a node changed, "
+     "so its screen coverage was removed.",
      "Create levels of detail with `simplify: {lods: [50%, 10%]}`."},
     {"W-MANIFOLD", "EXT_mesh_manifold cannot be read or written for a part.",
      "Read the reason in the message. `clean` makes a mesh manifold."},
@@ -62,7 +69,7 @@ const RegisterMessages gltf_messages{
      "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn instead of the "
      "texture."},
     {"W-TRANSFORM", "A glTF node cannot be moved like its part, or moves separately from its animation.",
-     "Use `transform: {bake: true}` to move the vertices instead."},
+     "Use `merge` before the stage, which makes parts without animation."},
 };
 
 } // namespace facetmill

@@ -230,7 +230,7 @@ class Describer {
         put("pr", both);
         if (metal != 0) put("pm", both);
         if (!material.find("occlusionTexture")) return;
-        // If all three use the same image, it becomes map_ORM.
+        // If occlusion, roughness and metalness use the same image, the image becomes map_ORM.
         const bool whole = number(*material.find("occlusionTexture"), "strength", 1) == 1;
         const auto occlusion = both && metal != 0 && whole && is_same_texture(material, pbr)
                                    ? map(material, "occlusionTexture")

@@ -3,6 +3,7 @@
 // PBR", 2016.
 
 #include "base/hash.hpp"
+#include "base/ordered_set.hpp"
 #include "base/text/spelling.hpp"
 #include "io/encoding.hpp"
 #include "io/images/image_files.hpp"
@@ -194,20 +195,41 @@ class LibraryReader {
 
 } // namespace
 
+std::vector<std::string> library_names(const Input& input, const std::string& text) {
+    std::vector<std::string> names;
+    const auto whole = input.path().empty() ? std::nullopt : relative_path_of(text);
+    const auto file = whole ? path_below(input, *whole) : std::nullopt;
+    std::error_code ignored;
+    if (file && fs::exists(*file, ignored)) return {text};
+    constexpr std::string_view suffix = ".mtl", blanks = " \t";
+    const std::string lower = lower_case(text);
+    std::size_t first = 0;
+    for (std::size_t at = 0; (at = lower.find(suffix, at)) != std::string::npos;) {
+        at += suffix.size();
+        const std::size_t next = std::min(lower.find_first_not_of(blanks, at), lower.size());
+        if (next == at && next < lower.size()) continue; // not the end of a name
+        names.push_back(text.substr(first, at - first));
+        first = at = next;
+    }
+    if (first < text.size()) names.push_back(text.substr(first));
+    return names;
+}
+
 std::map<std::string, Description> read_libraries(const Input& input, const std::vector<Event>& events,
                                                   ReadLog& log) {
+    OrderedSet<std::string> names;
+    for (const auto& e : events)
+        if (e.kind == Event::Kind::library)
+            for (std::string& name : library_names(input, e.text)) names.add(std::move(name));
     std::map<std::string, Description> all;
-    std::set<std::string> met;
-    for (const auto& e : events) {
-        if (e.kind != Event::Kind::library || !met.insert(e.text).second) continue;
-        const auto path = input.path().empty() ? std::nullopt : relative_path_of(e.text);
+    for (const std::string& name : names.all()) {
+        const auto path = input.path().empty() ? std::nullopt : relative_path_of(name);
         const auto file = path ? path_below(input, *path) : std::nullopt;
         if (!file) {
             log.unrepeatable |= path.has_value(); // a link may point elsewhere in the next run
-            warn(
-                log, input.name(),
-                fmt::format("the material file {} is not beside the mesh and is not read", in_quotes(e.text)),
-                hint_for_asset_root(input, path));
+            warn(log, input.name(),
+                 fmt::format("the material file {} is not beside the mesh and is not read", in_quotes(name)),
+                 hint_for_asset_root(input, path));
             continue;
         }
         try {
@@ -218,7 +240,7 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
         } catch (const Error& error) {
             std::error_code ignored;
             if (fs::exists(*file, ignored))
-                log.unrepeatable = true; // it is refused now, and may be readable in the next run
+                log.unrepeatable = true; // the next run may be able to read the file
             else
                 log.absent.push_back(*file);
             warn(log, input.name(),

@@ -41,7 +41,11 @@ struct Description {
     bool operator==(const Description&) const = default;
 };
 
-/// The materials of all libraries that the events name, by name. An unreadable library gives a warning
+/// The names in a mtllib statement. A name may have blanks, so the whole counts if that file exists, else
+/// each name up to ".mtl".
+[[nodiscard]] std::vector<std::string> library_names(const Input& input, const std::string& text);
+
+/// The materials of all libraries that the events name, by name. A library that cannot be read is a warning
 /// (W-MTL), because the mesh is complete without it.
 [[nodiscard]] std::map<std::string, Description>
 read_libraries(const Input& input, const std::vector<Event>& events, ReadLog& log);

@@ -35,8 +35,10 @@ struct Statements {
     std::size_t lines() const { return line_offsets.size() - 1; }
 };
 
-/// Parses the text, in parallel over chunks of lines. Throws a malformed-input error (E-OBJ, E-NAN) with the
-/// line.
+/// Whether colours of vertices count to 255 instead of 1. whole: all of them are whole numbers.
+[[nodiscard]] constexpr bool count_to_255(double largest, bool whole) { return largest > (whole ? 1 : 2); }
+
+/// Parses the text, in parallel over chunks of lines. Throws malformed (E-OBJ, E-NAN) with the line.
 [[nodiscard]] Statements parse(const Input& input, const ReadSettings& settings);
 
 /// Each `o` makes a part. Objects that share vertices stay a single part with the face attribute "object",

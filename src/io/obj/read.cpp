@@ -55,6 +55,19 @@ Naming naming(const Statements& s, Event::Kind kind, const std::string& before) 
     return naming(s, kind, before, s.faces(), &Event::face);
 }
 
+/// Divides colours by 255 if they count to that.
+void scale_colours(std::vector<float>& colours) {
+    float largest = 0;
+    bool whole = true;
+    for (const float c : colours) {
+        if (std::isnan(c)) continue; // not given
+        largest = std::max(largest, c);
+        whole = whole && c == std::floor(c);
+    }
+    if (!count_to_255(largest, whole)) return;
+    for (float& c : colours) c = c > 255 ? 1 : c / 255; // NaN stays
+}
+
 Attribute numbers(const char* name, std::vector<Index> values) {
     return {name, Domain::face, Role::index, 1, false, std::move(values)};
 }
@@ -129,17 +142,26 @@ std::vector<std::string> attributes_of(const Mesh& mesh, bool with_uvs) {
     return names;
 }
 
-const std::string no_material; ///< usemtl without a name also means no material
+const std::string no_material; ///< usemtl without a name means the same, unless a material has no name
 
 bool has_names(const Naming& materials) {
     return !materials.names.empty() && materials.names != std::vector{no_material};
 }
 
-/// Reads the libraries only if a face or a line has a material.
-MaterialMaker maker_of_materials(const Statements& s, const Input& input, ReadLog& log) {
-    const bool named = has_names(naming(s, Event::Kind::material, no_material)) ||
-                       has_names(naming(s, Event::Kind::material, no_material, s.lines(), &Event::line));
-    return {input, named ? read_libraries(input, s.events, log) : std::map<std::string, Description>{}, log};
+/// Reads the libraries only if the file uses materials. A material without a name gets one that no file can
+/// have, in the statements too.
+MaterialMaker maker_of_materials(Statements& s, const Input& input, ReadLog& log) {
+    const auto is_use = [](const Event& e) { return e.kind == Event::Kind::material; };
+    std::map<std::string, Description> known;
+    if (std::any_of(s.events.begin(), s.events.end(), is_use)) known = read_libraries(input, s.events, log);
+    if (auto unnamed = known.extract(no_material)) {
+        unnamed.key() = "\n";
+        unnamed.mapped().name = "";
+        for (Event& e : s.events)
+            if (is_use(e) && e.text.empty()) e.text = unnamed.key();
+        known.insert(std::move(unnamed));
+    }
+    return {input, std::move(known), log};
 }
 
 /// Makes the scene's materials and the mesh's primitives from usemtl. Faces without texture coordinates get
@@ -478,6 +500,7 @@ void drop_ends(Scene& scene) {
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     Statements s = parse(input, settings);
+    scale_colours(s.colours);
     if (const std::size_t groups = lost_groups_of_lines(s); groups > 0) s.skipped["groups of l"] = groups;
     report_skipped(s, input.name(), log);
     Scene scene;
@@ -598,11 +621,12 @@ void peek(const Input& input, FileHeader& header) {
     do {
         const std::string_view word = text.word_on_line();
         if (word != "mtllib") continue;
-        std::string name(text.rest_of_line());
-        const auto relative = input.path().empty() ? std::nullopt : relative_path_of(name);
-        if (const auto path = relative ? path_below(input, *relative) : std::nullopt) {
+        for (const std::string& name : library_names(input, std::string(text.rest_of_line()))) {
+            const auto relative = input.path().empty() ? std::nullopt : relative_path_of(name);
+            const auto path = relative ? path_below(input, *relative) : std::nullopt;
+            if (!path) continue;
             header.files.push_back(*path);
-            libraries.push_back({.kind = Event::Kind::library, .text = std::move(name)});
+            libraries.push_back({.kind = Event::Kind::library, .text = name});
         }
     } while (text.next_line());
     add_images(input, libraries, header);
@@ -620,6 +644,7 @@ const RegisterCodec codec({
     .extensions = {"obj"},
     .can = {.polygons = true,
             .points = true,
+            .points_and_faces = true,
             .lines = true,
             .full_precision = true,
             .textures = true,

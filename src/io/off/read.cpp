@@ -348,6 +348,7 @@ const RegisterCodec codec({
     .extensions = {"off", "coff", "noff"},
     .can = {.polygons = true,
             .points = true,
+            .points_and_faces = true,
             .full_precision = true,
             .attributes = "normals, colours of vertices or faces"},
     .sniff =

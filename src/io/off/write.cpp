@@ -122,6 +122,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
              fmt::format("{} vertices became {}: OFF has one colour at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "OFF");
+    warn_of_dropped(written, scene, "OFF", false);
     warn_of_parts(written, scene, "OFF");
     warn_of_textures(written, scene, "OFF");
     warn_of_colours(written, scene, "OFF");

@@ -46,8 +46,8 @@ class Outputs {
     /// Protects an input with its SHA-256: from now on, only the same bytes may be written to this path.
     void protect(const std::filesystem::path& input, std::string sum);
     /// Stages a file; makes its directory when missing. Throws an output error (E-WRITE, E-SPACE,
-    /// E-DIRECTORY, E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that
-    /// was staged already with other bytes). "-" is standard output.
+    /// E-DIRECTORY, E-OVERWRITE, E-DUPLICATE-OUTPUT). E-OVERWRITE: a protected input has other bytes.
+    /// E-DUPLICATE-OUTPUT: the target is already staged with other bytes. "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
     /// Stages data that is not in memory: `produce` passes it piece by piece. The target must not be a
     /// stream. Inputs and already staged files are refused, whatever their bytes.

@@ -54,6 +54,7 @@ const RegisterCodec codec({
     .extensions = {"ply"},
     .can = {.polygons = true,
             .points = true,
+            .points_and_faces = true,
             .lines = true,
             .text = true,
             .big_endian = true,

@@ -356,6 +356,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
              fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY");
+    warn_of_dropped(written, scene, "PLY");
     if (!settings.ascii) note_polygons(written, smallest, largest);
     warn_of_parts(written, scene, "PLY");
     warn_of_textures(written, scene, "PLY");

@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "base/text/spelling.hpp"
+#include "io/attributes.hpp"
 #include "io/not_finite.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
@@ -9,6 +10,7 @@
 #include "mesh/position_hash.hpp"
 #include "parallel/parallel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -129,12 +131,47 @@ void refuse_not_finite(const Mesh& mesh, const std::string& name) {
               drop_not_finite_hint);
 }
 
+/// The words in the head of Magics before the colour of the whole, in four bytes.
+constexpr std::string_view magics_words = "COLOR=";
+
+std::string_view title_of(Span bytes) {
+    return as_text(bytes.first(std::min(bytes.size(), head - sizeof(std::uint32_t))));
+}
+
+/// The three bytes of a triangle's colour.
+std::array<std::uint8_t, 3> colour_of(std::uint16_t bits, Colouring colouring,
+                                      const std::array<std::uint8_t, 3>& of_whole) {
+    constexpr int most = 31; // of five bits
+    std::array<std::uint8_t, 3> colour{};
+    for (std::size_t c = 0; c < 3; ++c)
+        colour[c] = static_cast<std::uint8_t>(((bits >> 5 * c & most) * 255 + most / 2) / most);
+    if (colouring == Colouring::viscam) std::swap(colour[0], colour[2]);
+    const bool own = (bits & 0x8000) != 0 ? colouring == Colouring::viscam : colouring == Colouring::magics;
+    return own ? colour : of_whole;
+}
+
 /// Keeps attribute bytes, which some programs use for colours; most files have zeros.
-void add_attribute_bytes(Mesh& mesh, const Records& records) {
-    if (!records.has_extra()) return;
-    std::vector<std::uint16_t> extra(records.size());
-    parallel_for(extra.size(), [&](std::size_t t) { extra[t] = records.extra(t); });
-    mesh.attributes.push_back({"attribute", Domain::face, Role::index, 1, false, std::move(extra)});
+void add_attribute_bytes(Mesh& mesh, const Records& records, const Input& input) {
+    const Colouring colouring = colouring_of(input);
+    if (colouring != Colouring::none) {
+        std::array<std::uint8_t, 3> of_whole{255, 255, 255};
+        const std::string_view title = title_of(input.bytes());
+        const std::size_t at = title.find(magics_words) + magics_words.size();
+        if (colouring == Colouring::magics && at + of_whole.size() <= title.size())
+            std::memcpy(of_whole.data(), title.data() + at, of_whole.size());
+        std::vector<std::uint8_t> colours(3 * records.size());
+        parallel_for(records.size(), [&](std::size_t t) {
+            // Without any bytes, the head alone has a colour.
+            const auto colour =
+                records.has_extra() ? colour_of(records.extra(t), colouring, of_whole) : of_whole;
+            std::copy(colour.begin(), colour.end(), colours.begin() + static_cast<std::ptrdiff_t>(3 * t));
+        });
+        mesh.attributes.push_back({"COLOR_0", Domain::face, Role::colour, 3, true, std::move(colours)});
+    } else if (records.has_extra()) {
+        std::vector<std::uint16_t> extra(records.size());
+        parallel_for(extra.size(), [&](std::size_t t) { extra[t] = records.extra(t); });
+        mesh.attributes.push_back({stl_attribute, Domain::face, Role::index, 1, false, std::move(extra)});
+    }
 }
 
 Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log) {
@@ -145,11 +182,16 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                                 fmt::format("{} bytes after the last of {} triangles are skipped",
                                             bytes.size() - head - n * record, n),
                                 file_mark(input.name()), ""});
+    if (n != promised_triangles(bytes))
+        log.warnings.push_back({Severity::warning, "W-COUNT",
+                                fmt::format("the head counts {} triangles, and the file has {}: all are read",
+                                            promised_triangles(bytes), n),
+                                file_mark(input.name()), "", false});
     check_count(input, settings, 3 * n);
     Part part;
     const Records records(input, bytes.subspan(head, n * record));
     add_triangles(part.mesh, records, settings);
-    add_attribute_bytes(part.mesh, records);
+    add_attribute_bytes(part.mesh, records, input);
     if (!settings.drop_not_finite) refuse_not_finite(part.mesh, input.name());
     return part;
 }
@@ -200,7 +242,7 @@ class TextReader {
     void read_facet(Mesh& mesh) {
         if (mesh.positions.size() % (3 * 8192) == 0)
             ProgressScope::report(1 - static_cast<double>(text_.left()) / static_cast<double>(all_));
-        text_.rest_of_line(); // the normal
+        text_.rest_of_line(); // skips the normal
         expect("outer");
         expect("loop");
         for (int k = 0; k < 3; ++k) {
@@ -237,6 +279,9 @@ std::uint32_t held_triangles(const Input& input) {
                         bytes, head));
     const std::uint32_t n = promised_triangles(input.bytes());
     const std::size_t held = (bytes - head) / record;
+    const bool is_counted = n != 0 && n != UINT32_MAX;
+    if (!is_counted && (bytes - head) % record == 0 && held < UINT32_MAX)
+        return static_cast<std::uint32_t>(held);
     if (n > held)
         malformed(input.name(), 0, "E-STL",
                   fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}", n, held,
@@ -244,8 +289,27 @@ std::uint32_t held_triangles(const Input& input) {
     return n;
 }
 
+Colouring colouring_of(const Input& input) {
+    const std::string_view title = title_of(input.bytes());
+    if (title.find(magics_words) != std::string_view::npos) return Colouring::magics;
+    if (title.find(viscam_words) != std::string_view::npos) return Colouring::viscam;
+    const Span records = input.bytes().subspan(head, record * std::size_t{held_triangles(input)});
+    const int marks = parallel_reduce(
+        records.size() / record, 0,
+        [&](std::size_t begin, std::size_t end) {
+            int mark = 0;
+            for (std::size_t t = begin; t < end; ++t)
+                mark |= std::to_integer<int>(records[t * record + record - 1]) & 0x80;
+            return mark;
+        },
+        [](int a, int b) { return a | b; });
+    return marks != 0 ? Colouring::viscam : Colouring::none;
+}
+
 bool is_text(Span bytes) {
     if (has_binary_size(bytes)) return false;
+    const Span start = bytes.first(std::min<std::size_t>(bytes.size(), 4096));
+    if (std::find(start.begin(), start.end(), std::byte{0}) != start.end()) return false;
     static const std::string nameless;
     Text text(as_text(bytes.first(std::min<std::size_t>(bytes.size(), 4096))), nameless, "E-STL");
     if (!same_word(text.word(), "solid")) return false;
@@ -258,7 +322,7 @@ namespace {
 
 /// The unit and axis stated between semicolons in the bytes before the count.
 Stated stated_in_head(Span bytes) {
-    std::string_view words = as_text(bytes.first(std::min(bytes.size(), head - sizeof(std::uint32_t))));
+    std::string_view words = title_of(bytes);
     words = words.substr(0, words.find('\0'));
     Stated stated;
     while (!words.empty()) {
@@ -284,7 +348,10 @@ const RegisterCodec codec({
     .name = "stl",
     .about = "Stereolithography, text or binary; triangles only, welded exactly",
     .extensions = {"stl"},
-    .can = {.shares_vertices = false, .normals = false, .text = true, .attributes = "none"},
+    .can = {.shares_vertices = false,
+            .normals = false,
+            .text = true,
+            .attributes = "colours of faces, in binary files"},
     .sniff =
         [](Span bytes) {
             if (is_text(bytes))

@@ -2,10 +2,12 @@
 
 #include "base/progress.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/stated.hpp"
 #include "parallel/parallel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fmt/format.h>
@@ -83,12 +85,28 @@ void write_text(Bytes& bytes, const Mesh& mesh, const std::string& name) {
 }
 
 const std::vector<std::uint16_t>* attribute_bytes(const Mesh& mesh) {
-    const Attribute* a = mesh.find("attribute", Domain::face);
+    const Attribute* a = mesh.find(stl_attribute, Domain::face);
     return a && a->components == 1 ? std::get_if<std::vector<std::uint16_t>>(&a->data) : nullptr;
 }
 
+/// Colours of faces, which a binary file can hold, or null.
+const Attribute* face_colours(const Mesh& mesh) {
+    const Attribute* a = mesh.find("COLOR_0", Domain::face);
+    return a && a->components >= 3 ? a : nullptr;
+}
+
+/// The attribute bytes of a face: its colour as VisCAM has it.
+std::uint16_t viscam_bits(const Attribute& colours, std::size_t face) {
+    unsigned bits = 1;
+    for (int c = 0; c < 3; ++c)
+        bits = bits << 5 | as_component<std::uint8_t>(std::clamp(colours.value(face, c), 0.0, 1.0) * 31);
+    return static_cast<std::uint16_t>(bits);
+}
+
 void write_binary(Bytes& bytes, const Mesh& mesh, const Scene& scene) {
-    const std::string title = "binary STL, written by facetmill" + stated_comments(scene, "; ", "");
+    const Attribute* const colours = face_colours(mesh);
+    std::string title = "binary STL, written by facetmill" + stated_comments(scene, "; ", "");
+    if (colours) title += fmt::format("; {}", viscam_words);
     bytes.resize(head + record * mesh.face_count());
     std::memcpy(bytes.data(), title.data(), title.size());
     const auto n = static_cast<std::uint32_t>(mesh.face_count());
@@ -99,7 +117,8 @@ void write_binary(Bytes& bytes, const Mesh& mesh, const Scene& scene) {
         std::byte* at = bytes.data() + head + record * f;
         std::memcpy(at, &t.normal, 12);
         std::memcpy(at + 12, &t.corners, 36);
-        if (extra) std::memcpy(at + 48, &(*extra)[f], 2);
+        const std::uint16_t bits = colours ? viscam_bits(*colours, f) : extra ? (*extra)[f] : 0;
+        std::memcpy(at + 48, &bits, sizeof bits);
     });
 }
 
@@ -107,16 +126,20 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
     std::set<std::pair<std::string, Domain>> told;
     for (const auto& part : scene.parts) {
         for (const auto& a : part.mesh.attributes) {
-            const bool kept =
-                !settings.ascii && a.name == "attribute" && attribute_bytes(part.mesh) != nullptr;
+            const Attribute* const colours = face_colours(part.mesh);
+            const bool is_extra = !colours && a.name == stl_attribute && attribute_bytes(part.mesh);
+            const bool kept = !settings.ascii && (&a == colours || is_extra);
             if (!kept && told.insert({a.name, a.domain}).second)
-                dropped(written, a, "STL holds positions only");
+                dropped(written, a, "STL holds positions only, besides colours of faces in binary files");
         }
         if (!part.mesh.all_triangles() && told.insert({"polygons", Domain::face}).second)
             written.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,
                                        "STL holds triangles: cut into them"});
     }
     leave_documents(written, scene, "STL");
+    warn_of_dropped(written, scene, "STL", false);
+    warn_of_textures(written, scene, "STL");
+    warn_of_colours(written, scene, "STL");
     if (settings.ascii)
         warn_of_names(written, scene, "STL", false);
     else

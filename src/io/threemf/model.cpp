@@ -24,10 +24,10 @@ class ModelReader {
     }
 
     XmlHandler handler() {
-        return {[this](const Element& e) { start(e); }, [this] { end(); },
-                [this](std::string_view prefix, std::string_view space) {
-                    spaces_[std::string(prefix)] = space;
-                }};
+        return {
+            [this](const Element& e) { start(e); }, [this] { end(); },
+            [this](std::string_view prefix, std::string_view space) { spaces_[std::string(prefix)] = space; },
+            [this](std::string_view text) { metadata_text(text); }};
     }
     Unit unit() const { return model_.unit; }
 
@@ -35,8 +35,10 @@ class ModelReader {
         const std::string_view parent = open_.empty() ? std::string_view() : open_.back();
         const bool known = skipping_ == 0 && is_known(e, parent);
         if (!known) {
-            if (skipping_++ == 0 && e.name != "metadata" && e.name != "metadatagroup")
-                ++model_.skipped[std::string(e.name)];
+            if (skipping_++ > 0) return;
+            ++model_.skipped[std::string(e.name)];
+            if (parent == "resources")
+                if (const auto id = e.find("id")) claim(e, natural(e, "id", *id), true);
             return;
         }
         open_.emplace_back(e.name);
@@ -51,13 +53,15 @@ class ModelReader {
         else if (e.name == "component")
             object_->components.push_back(use(e));
         else if (e.name == "item")
-            model_.items.push_back(use(e));
+            item(e);
         else if (e.name == "basematerials" || e.name == "colorgroup")
             group(e);
         else if (e.name == "base")
             base(e);
         else if (e.name == "color")
             group_->colours.push_back(colour(e, "color"));
+        else if (e.name == "metadata")
+            metadata(e);
     }
 
   private:
@@ -119,7 +123,12 @@ class ModelReader {
         return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e)};
     }
 
-    /// Reads "#RRGGBB" or "#RRGGBBAA".
+    void item(const Element& e) {
+        model_.items.push_back(use(e));
+        if (!e.find("partnumber").value_or("").empty()) ++model_.skipped["partnumber of item"];
+    }
+
+    /// "#RRGGBB" or "#RRGGBBAA".
     Colour colour(const Element& e, const char* attribute) const {
         const std::string_view text = trimmed(need(e, attribute));
         Colour c{0, 0, 0, 255};
@@ -146,6 +155,7 @@ class ModelReader {
     bool is_known(const Element& e, std::string_view parent) const {
         static constexpr std::pair<std::string_view, std::string_view> core[] = {
             {"", "model"},
+            {"model", "metadata"},
             {"model", "resources"},
             {"resources", "basematerials"},
             {"basematerials", "base"},
@@ -187,12 +197,39 @@ class ModelReader {
         }
     }
 
+    /// Keeps metadata, except those that describe the file, and those of programs, whose names have a prefix.
+    void metadata(const Element& e) {
+        const std::string_view name = need(e, "name");
+        if (std::find(std::begin(metadata_names), std::end(metadata_names), name) != std::end(metadata_names))
+            model_.metadata.emplace_back(name, "");
+        else if (name != "Application" && name != "ModificationDate" && name.find(':') == name.npos)
+            ++model_.skipped[fmt::format("metadata {}", in_quotes(name))];
+        reads_metadata_ = !model_.metadata.empty() && model_.metadata.back().first == name;
+    }
+    void metadata_text(std::string_view text) {
+        if (skipping_ > 0 || open_.empty() || open_.back() != "metadata" || !reads_metadata_) return;
+        constexpr std::size_t most = 65536;
+        std::string& all = model_.metadata.back().second;
+        all.append(text.substr(0, most - std::min(most, all.size())));
+    }
+
+    /// Notes that a resource has this id. is_other: a resource that is not read.
+    void claim(const Element& e, std::uint32_t id, bool is_other) {
+        if (is_other) others_.insert(id);
+        if (!ids_.insert(id).second)
+            model_.faults.push_back(
+                fmt::format("line {}: two resources have the id {}, which must be unique", e.line, id));
+    }
+
     void object(const Element& e) {
         const std::uint32_t id = natural(e, "id");
         const auto [at, fresh] = model_.objects.try_emplace(id);
         if (!fresh) fail(e, fmt::format("there are two objects {}", id));
+        claim(e, id, false);
         object_ = &at->second;
         object_->name = e.find("name").value_or("");
+        object_->part_number = e.find("partnumber").value_or("");
+        object_->type = trimmed(e.find("type").value_or("model"));
         object_->properties.group = natural_or(e, "pid", none);
         object_->properties.index.fill(natural_or(e, "pindex", object_->properties.group == none ? none : 0));
     }
@@ -224,6 +261,7 @@ class ModelReader {
         const std::uint32_t id = natural(e, "id");
         const auto [at, fresh] = model_.groups.try_emplace(id);
         if (!fresh) fail(e, fmt::format("there are two groups {}", id));
+        claim(e, id, false);
         group_ = &at->second;
         group_->materials = e.name == "basematerials";
     }
@@ -233,18 +271,27 @@ class ModelReader {
     }
 
     /// Checks that the vertices and properties that triangles name exist.
-    void check(std::uint32_t id, const Object& object) const {
+    void check(std::uint32_t id, const Object& object) {
         for (std::size_t c = 0; c < object.corners.size(); ++c)
             if (object.corners[c] >= object.positions.size())
                 malformed(name_, 0, "E-3MF",
                           fmt::format("triangle {} of object {} names vertex {}, there are {}", c / 3, id,
                                       object.corners[c], object.positions.size()));
-        check(id, object.properties, none);
-        for (const Properties& p : object.triangles) check(id, p, object.properties.group);
+        std::set<std::uint32_t> missing;
+        check(id, object.properties, none, missing);
+        for (const Properties& p : object.triangles) check(id, p, object.properties.group, missing);
+        for (const std::uint32_t group : missing)
+            model_.faults.push_back(fmt::format(
+                "object {} names the properties {}, which do not exist: it has no colour there", id, group));
     }
-    void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise) const {
-        const auto group = model_.groups.find(p.group == none ? otherwise : p.group);
-        if (group == model_.groups.end()) return; // the group is missing or of an unsupported kind
+    void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise,
+               std::set<std::uint32_t>& missing) const {
+        const std::uint32_t named = p.group == none ? otherwise : p.group;
+        const auto group = model_.groups.find(named);
+        if (group == model_.groups.end()) {
+            if (named != none && !others_.contains(named)) missing.insert(named);
+            return;
+        }
         for (const std::uint32_t index : p.index)
             if (index != none && index >= group->second.colours.size())
                 malformed(name_, 0, "E-3MF",
@@ -259,7 +306,10 @@ class ModelReader {
     bool is_model_ = false;
     std::vector<std::string> open_; ///< the enclosing supported elements
     int skipping_ = 0;              ///< the depth inside an unsupported element
+    bool reads_metadata_ = false;
     std::map<std::string, std::string> spaces_;
+    std::set<std::uint32_t> ids_;    ///< of all resources
+    std::set<std::uint32_t> others_; ///< of resources that are not read
     Object* object_ = nullptr;
     Group* group_ = nullptr;
 };

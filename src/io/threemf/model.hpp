@@ -45,7 +45,8 @@ struct Use { ///< a component, or a build item
 };
 
 struct Object {
-    std::string name;
+    std::string name, part_number;
+    std::string type; ///< "model", "solidsupport", "support", "surface" or "other"
     Properties properties;
     std::vector<Vec3> positions;
     std::vector<Index> corners;
@@ -65,11 +66,19 @@ struct Model {
     std::map<std::uint32_t, Object> objects;
     std::map<std::uint32_t, Group> groups;
     std::vector<Use> items;
-    std::map<std::string, std::size_t> skipped; ///< unsupported elements and their counts
+    std::map<std::string, std::size_t> skipped;                ///< unsupported elements and their counts
+    std::vector<std::pair<std::string, std::string>> metadata; ///< names and texts, without those of programs
+    std::vector<std::string> faults; ///< broken rules of the specification, for warnings
 };
 
-/// path: the part's path in the archive. Throws the errors of read_xml, E-EXTENSION for an unsupported
-/// required extension, and a limit error (E-SIZE) beyond max_vertices.
+/// The names of metadata that all programs know, except those about the file itself.
+inline constexpr std::string_view metadata_names[] = {"Title",        "Designer", "Description", "Copyright",
+                                                      "LicenseTerms", "Rating",   "CreationDate"};
+/// The member of a primitive's extras with the part number of its object.
+inline constexpr const char* part_number_key = "partnumber";
+
+/// path: of the part in the archive. Throws as read_xml, E-EXTENSION for an unsupported required extension,
+/// limit (E-SIZE) beyond max_vertices.
 [[nodiscard]] Model read_model(Span xml, const std::string& archive, const std::string& path,
                                std::size_t max_vertices);
 

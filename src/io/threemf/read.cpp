@@ -1,5 +1,6 @@
 #include "io/threemf/threemf.hpp"
 
+#include "base/json.hpp"
 #include "base/text/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "io/attributes.hpp"
@@ -16,20 +17,27 @@ namespace facetmill::io::threemf {
 
 namespace {
 
-/// The path of the main model: from the archive's relationships, else the path that all writers use.
-std::string main_model(Archive& archive, const std::string& name) {
+struct MainModel {
+    std::string path;
+    std::size_t count = 0; ///< of the models that the relationships name
+};
+
+/// The main model: from the archive's relationships, else the path that all writers use.
+MainModel main_model(Archive& archive, const std::string& name) {
     std::string path = "/3D/3dmodel.model";
+    std::size_t count = 0;
     if (const auto relations = archive.file("/_rels/.rels"))
         read_xml(*relations, name + "/_rels/.rels",
                  {[&](const Element& e) {
                       const auto type = e.find("Type"), target = e.find("Target");
-                      if (target && type == "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")
-                          path = *target;
+                      if (!target || type != "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")
+                          return;
+                      if (++count == 1) path = *target;
                   },
                   [] {},
                   {}});
     if (!path.starts_with('/')) path = "/" + path;
-    return path;
+    return {std::move(path), count};
 }
 
 class SceneMaker {
@@ -39,14 +47,27 @@ class SceneMaker {
           document_(input.name()) {}
 
     Scene make() {
-        const std::string path = main_model(archive_, name_);
+        const auto [path, count] = main_model(archive_, name_);
+        if (count > 1)
+            faults_.push_back(fmt::format("its relations name {} models: only '{}' is read", count, path));
         const Model& main = model(path);
         scene_.unit = main.unit;
         scene_.up = UpAxis::z;
         std::vector<Use> items = main.items;
-        if (items.empty()) items = unused(main, path);
+        if (items.empty()) {
+            items = unused(main, path);
+            faults_.emplace_back("it builds nothing: the objects that no other object uses are read");
+        }
+        for (const Use& item : items) warn_of_item(item);
         for (const Use& item : items) place(item, {}, "");
+        if (scene_.parts.empty() && !left_out_.empty()) {
+            reads_all_types_ = true;
+            for (const Use& item : items) place(item, {}, "");
+        }
+        keep_metadata(main);
         if (!document_.empty()) scene_.documents.push_back(document_.finish());
+        warn_of_types();
+        warn_of_faults();
         warn_of_skipped();
         return std::move(scene_);
     }
@@ -91,6 +112,10 @@ class SceneMaker {
                       fmt::format("object {} is a component of itself, or nested deeper than {} levels",
                                   use.object.id, deepest));
         const Object& object = found->second;
+        if (object.type != "model" && !reads_all_types_) {
+            ++left_out_[object.type];
+            return;
+        }
         const Transform world = above * use.transform;
         const std::string& named = object.name.empty() || is_name_of_instance ? name : object.name;
         if (!object.positions.empty()) add_part(use.object, object, world, named);
@@ -122,7 +147,14 @@ class SceneMaker {
         Mesh mesh;
         mesh.positions = object.positions;
         mesh.corners = object.corners;
-        if (object.properties.group == none && object.triangles.empty()) return mesh;
+        extras_ = object.part_number.empty() ? ""
+                                             : Json{{"extras", {{part_number_key, object.part_number}}}}.dump(
+                                                   -1, ' ', false, Json::error_handler_t::replace);
+        if (object.properties.group == none && object.triangles.empty()) {
+            primitive(mesh, none, false);
+            finish_primitives(mesh, {});
+            return mesh;
+        }
         const Model& there = model(id.path);
         std::vector<std::uint64_t> colours(mesh.corners.size(), no_key);
         std::vector<std::uint32_t> primitives;
@@ -133,29 +165,39 @@ class SceneMaker {
             if (p.group == none) p.group = object.properties.group;
             const auto group = there.groups.find(p.group);
             const bool known = group != there.groups.end();
-            primitives.push_back(primitive(mesh, known && group->second.materials
-                                                     ? material(id.path, p.group, p.index[0], group->second)
-                                                     : none));
-            for (std::size_t k = 0; known && !group->second.materials && k < 3; ++k) {
+            const bool colours_count = known && !group->second.materials;
+            primitives.push_back(primitive(
+                mesh, known && !colours_count ? material(id.path, p.group, p.index[0], group->second) : none,
+                colours_count));
+            for (std::size_t k = 0; colours_count && k < 3; ++k) {
                 const Colour& c = group->second.colours[p.index.at(k)];
                 colours[3 * f + k] = std::uint64_t{c[0]} | c[1] << 8 | c[2] << 16 | std::uint64_t{c[3]} << 24;
                 coloured = true;
             }
         }
+        if (mesh.primitives.size() == 1)
+            mesh.primitives[0].attributes.clear(); // all triangles have colours, or none has
         finish_primitives(mesh, std::move(primitives));
         if (coloured) add_colours(mesh, colours);
         return mesh;
     }
 
-    /// The index of the material's primitive in the mesh, added if new.
-    static std::uint32_t primitive(Mesh& mesh, Index material) {
+    /// The index of the primitive with this material in the mesh, added if new. Triangles without colours do
+    /// not list them, so that white does not hide their material.
+    std::uint32_t primitive(Mesh& mesh, Index material, bool coloured) const {
         for (std::size_t p = mesh.primitives.size(); p-- > 0;)
-            if (mesh.primitives[p].material == material) return static_cast<std::uint32_t>(p);
-        mesh.primitives.push_back({.material = material, .attributes = {}, .json = {}});
+            if (mesh.primitives[p].material == material && mesh.primitives[p].lists("COLOR_0") == coloured)
+                return static_cast<std::uint32_t>(p);
+        std::vector<std::string> attributes{"POSITION"};
+        if (coloured) attributes.emplace_back("COLOR_0");
+        mesh.primitives.push_back({material, std::move(attributes), extras_});
         return static_cast<std::uint32_t>(mesh.primitives.size() - 1);
     }
     static void finish_primitives(Mesh& mesh, std::vector<std::uint32_t> of_face) {
-        if (mesh.primitives.size() == 1 && mesh.primitives[0].material == none) mesh.primitives.clear();
+        if (mesh.primitives.size() == 1) {
+            const Primitive& only = mesh.primitives[0];
+            if (only.material == none && only.json.empty()) mesh.primitives.clear();
+        }
         if (mesh.primitives.size() > 1)
             mesh.attributes.push_back(
                 {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
@@ -191,6 +233,48 @@ class SceneMaker {
         return at->second;
     }
 
+    /// Metadata go into the document as glTF has them, so that every format that can keep them does.
+    void keep_metadata(const Model& main) {
+        for (const auto& [name, text] : main.metadata)
+            if (!trimmed(text).empty()) {
+                Json& asset = document_.asset();
+                (name == "Copyright" ? asset["copyright"] : asset["extras"][name]) = trimmed(text);
+            }
+    }
+
+    void warn_of_item(const Use& item) {
+        const auto& objects = model(item.object.path).objects;
+        const auto found = objects.find(item.object.id);
+        if (found != objects.end() && found->second.type == "other")
+            faults_.push_back(
+                fmt::format("it builds object {}, whose type is 'other', which it must not", item.object.id));
+    }
+
+    /// Supports and the like, which are no part of the product.
+    void warn_of_types() {
+        if (left_out_.empty()) return;
+        std::vector<std::string> words;
+        words.reserve(left_out_.size());
+        for (const auto& [type, count] : left_out_)
+            words.push_back(fmt::format("{} {}", count, in_quotes(type)));
+        std::string message =
+            reads_all_types_
+                ? fmt::format("the file has no object of type 'model': others are read as such ({})",
+                              fmt::join(words, ", "))
+                : fmt::format("objects that are no models are left out: {}", fmt::join(words, ", "));
+        log_.warnings.push_back({Severity::warning, "W-SKIPPED", std::move(message), file_mark(name_),
+                                 reads_all_types_ ? "" : "change their type in the program that wrote them"});
+    }
+
+    void warn_of_faults() {
+        for (const auto& [path, model] : models_)
+            for (const std::string& fault : model.faults) faults_.push_back(fault);
+        constexpr std::size_t most = 8;
+        for (std::size_t i = 0; i < std::min(most, faults_.size()); ++i)
+            log_.warnings.push_back(
+                {Severity::warning, "W-3MF", faults_[i], file_mark(name_), "export the file again", false});
+    }
+
     void warn_of_skipped() {
         std::map<std::string, std::size_t> all;
         for (const auto& [path, model] : models_)
@@ -222,6 +306,10 @@ class SceneMaker {
     std::map<MaterialId, Index> materials_;
     std::vector<ObjectId> open_;
     std::size_t uses_ = 0, vertices_ = 0;
+    std::string extras_;                          ///< of the primitives of the object being read
+    std::map<std::string, std::size_t> left_out_; ///< placed objects by type, other than models
+    bool reads_all_types_ = false;
+    std::vector<std::string> faults_; ///< broken rules of the specification
 };
 
 /// Recognises a zip archive whose content types list a model. All writers put the content types near the
@@ -237,7 +325,7 @@ int sniff(Span bytes) {
 /// Reads only the unit, which is at the start of the model.
 void peek(const Input& input, FileHeader& header) {
     Archive archive(input.bytes(), input.name());
-    const std::string path = main_model(archive, input.name());
+    const std::string path = main_model(archive, input.name()).path;
     if (const auto xml = archive.file(path)) header.unit = unit_of_model(*xml, input.name(), path);
 }
 

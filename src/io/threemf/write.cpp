@@ -1,9 +1,10 @@
 #include "io/threemf/threemf.hpp"
 
-#include "base/ordered_set.hpp"
+#include "base/json.hpp"
 #include "base/text/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/threemf/model.hpp"
 #include "io/threemf/zip.hpp"
@@ -81,6 +82,12 @@ class Looks {
             if (material(f) != none && has_colours(f)) return true;
         return false;
     }
+    /// The properties that triangles have which name none: those of the first face, if every face has any.
+    Properties usual() const {
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            if (of(f).group == none) return {};
+        return of(0);
+    }
     Properties of(Index f) const {
         Properties p;
         if (has_colours(f)) {
@@ -123,8 +130,8 @@ class ModelWriter {
                fmt::format(
                    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"{}\" xml:lang=\"en-US\" "
                    "xmlns=\"{}\" xmlns:m=\"{}\">\n <metadata name=\"Application\">facetmill {}</metadata>\n"
-                   " <resources>\n",
-                   unit_name(scene_.unit), core_space, material_space, FACETMILL_VERSION));
+                   "{} <resources>\n",
+                   unit_name(scene_.unit), core_space, material_space, FACETMILL_VERSION, metadata()));
         put_materials();
         const auto first = DistinctParts(scene_).first;
         std::vector<Object> objects(scene_.parts.size()); // objects of the first of equal meshes
@@ -160,6 +167,40 @@ class ModelWriter {
 
     void warn(const char* id, std::string message) {
         written_.warnings.push_back({Severity::warning, id, std::move(message), {}, ""});
+    }
+
+    /// The copyright and the extras of the documents' assets that 3MF has names for. The first document with
+    /// a name counts.
+    std::string metadata() const {
+        std::map<std::string_view, std::string> found;
+        for (const auto& document : scene_.documents) {
+            const Json json = parse_json(document->json, Broken::discarded);
+            const auto asset = json.is_object() ? json.find("asset") : json.end();
+            if (asset == json.end() || !asset->is_object()) continue;
+            const Json extras = asset->value("extras", Json::object());
+            for (const std::string_view name : metadata_names) {
+                const std::string key = name == "Copyright" ? "copyright" : std::string(name);
+                const Json& from = name == "Copyright" ? *asset : extras;
+                if (from.is_object() && from.contains(key) && from[key].is_string())
+                    found.try_emplace(name, from[key].get<std::string>());
+            }
+        }
+        std::string text;
+        for (const auto& [name, value] : found)
+            text += fmt::format(" <metadata name=\"{}\">{}</metadata>\n", name, xml_escaped(value));
+        return text;
+    }
+
+    /// The part number of a mesh that a 3MF had; empty: none.
+    static std::string part_number(const Mesh& mesh) {
+        for (const Primitive& p : mesh.primitives) {
+            if (p.json.find(part_number_key) == std::string::npos) continue;
+            const Json json = parse_json(p.json, Broken::discarded);
+            const Json::json_pointer place(fmt::format("/extras/{}", part_number_key));
+            if (json.is_object() && json.contains(place) && json[place].is_string())
+                return json[place].get<std::string>();
+        }
+        return {};
     }
 
     void put_materials() {
@@ -200,6 +241,11 @@ class ModelWriter {
             own = *WorldMesh(part);
             mesh = &own;
         }
+        if (has_colours_of_faces_only(*mesh)) {
+            if (mesh != &own) own = *mesh;
+            move_colours_to_wedges(own);
+            mesh = &own;
+        }
         if (!mesh->all_triangles()) {
             own = triangles_of(*mesh);
             mesh = &own;
@@ -230,9 +276,11 @@ class ModelWriter {
     }
 
     void put_mesh(const Mesh& mesh, const Looks& looks, const std::string& name) {
-        const Properties usual = looks.of(0);
+        const Properties usual = looks.usual();
         append(out_, fmt::format("  <object id=\"{}\" type=\"model\"", next_id_));
         if (!name.empty()) append(out_, fmt::format(" name=\"{}\"", xml_escaped(name)));
+        if (const std::string number = part_number(mesh); !number.empty())
+            append(out_, fmt::format(" partnumber=\"{}\"", xml_escaped(number)));
         if (usual.group != none)
             append(out_, fmt::format(" pid=\"{}\" pindex=\"{}\"", usual.group, usual.index[0]));
         append(out_, ">\n   <mesh>\n    <vertices>\n");
@@ -287,16 +335,15 @@ class ModelWriter {
 
     void tell_what_is_lost() {
         std::set<std::pair<std::string, Domain>> told;
-        OrderedSet<std::string> missed;
         for (const Part& part : scene_.parts)
             for (const Attribute& a : part.mesh.attributes) {
-                const bool kept =
-                    a.name == primitive_attribute || (a.name == "COLOR_0" && a.domain == Domain::wedge);
+                const bool colour = a.name == "COLOR_0" &&
+                                    (a.domain == Domain::wedge || has_colours_of_faces_only(part.mesh));
+                const bool kept = a.name == primitive_attribute || colour;
                 if (kept || !told.insert({a.name, a.domain}).second) continue;
                 dropped(written_, a, "3MF cannot represent it");
-                if (is_missed(a)) missed.add(a.name);
             }
-        warn_of_attributes(written_, missed.all(), "3MF");
+        warn_of_dropped(written_, scene_, "3MF");
         warn_of_names(written_, scene_, "3MF");
         if (polygons_)
             written_.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,

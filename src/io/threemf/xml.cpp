@@ -78,6 +78,11 @@ void XMLCALL on_space(void* data, const char* prefix, const char* space) {
     });
 }
 
+void XMLCALL on_text(void* data, const char* text, int length) {
+    Session& session = session_of(data);
+    session.guarded([&] { session.handler.text({text, static_cast<std::size_t>(length)}); });
+}
+
 void XMLCALL on_document_type(void* data, const char*, const char*, const char*, int) {
     Session& session = session_of(data);
     session.guarded([&] { session.fail("a document type (<!DOCTYPE>) is not allowed in 3MF"); });
@@ -98,6 +103,7 @@ void read_xml(Span text, const std::string& name, const XmlHandler& handler) {
     Session session{parser.get(), name, handler, 0, nullptr};
     XML_SetUserData(parser.get(), &session);
     XML_SetElementHandler(parser.get(), on_start, on_end);
+    if (handler.text) XML_SetCharacterDataHandler(parser.get(), on_text);
     XML_SetStartNamespaceDeclHandler(parser.get(), on_space);
     XML_SetStartDoctypeDeclHandler(parser.get(), on_document_type);
     // Passes the text in pieces, because Expat's lengths are int.

@@ -25,6 +25,8 @@ struct XmlHandler {
     std::function<void()> end;
     /// Called when a prefix is bound to a namespace.
     std::function<void(std::string_view prefix, std::string_view space)> space;
+    /// Called with text between elements, in pieces. Not set: text is not needed.
+    std::function<void(std::string_view)> text = {};
 };
 
 /// Reads a document. name: the document's name in messages. Throws a malformed-input error (E-3MF) with the

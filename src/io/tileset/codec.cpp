@@ -6,15 +6,7 @@ namespace facetmill::io::tileset {
 
 namespace {
 
-/// Detects a JSON object that has, near its start, the keys that a tileset requires and a glTF lacks.
-int sniff(Span bytes) {
-    constexpr std::size_t near = 65536;
-    const std::string_view text = as_text(bytes).substr(0, near);
-    const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string_view::npos || text[first] != '{') return 0;
-    const auto has = [&](std::string_view key) { return text.find(key) != std::string_view::npos; };
-    return has("\"geometricError\"") && has("\"root\"") && !has("\"bufferViews\"") ? 2 : 0;
-}
+int sniff(Span bytes) { return gltf::is_tileset(as_text(bytes)) ? 2 : 0; }
 
 /// Lists the neighbouring tiles.
 void peek(const Input& input, FileHeader& header) {

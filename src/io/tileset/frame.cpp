@@ -1,5 +1,6 @@
 #include "io/tileset/frame.hpp"
 
+#include "base/text/readable_numbers.hpp"
 #include "parallel/parallel.hpp"
 
 #include <algorithm>
@@ -70,6 +71,23 @@ TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettin
     TilesetFrame frame = usual_frame(box_of(positions), settings);
     frame.step = distinct_step(positions, frame);
     return frame;
+}
+
+std::optional<Diagnostic> warning_of_place(const TilesetFrame& frame) {
+    constexpr double local = 100e3;                     // metres; projected coordinates are larger
+    constexpr double lowest = 6345e3, highest = 6478e3; // the poles less 12 km, the equator and 100 km
+    const double radius = length(frame.origin);
+    if (radius <= local || (radius >= lowest && radius <= highest)) return {};
+    const double polar = 6356.752e3, above = (radius - polar) / 1000;
+    return Diagnostic{
+        Severity::warning,
+        "W-GEOCENTRIC",
+        fmt::format("the root's transform is ({}). Globe viewers read it as geocentric coordinates (ECEF), "
+                    "about {:.0f} km {} the ground, but it seems to be projected (UTM or a national grid)",
+                    readable(frame.origin, ", "), std::abs(above), above < 0 ? "below" : "above"),
+        {},
+        "use transform: {centre: true} and place the tileset by the viewer's model matrix, or convert the "
+        "coordinates to EPSG:4978 first"};
 }
 
 void put_into_frame(std::vector<Vec3>& positions, const TilesetFrame& frame) {

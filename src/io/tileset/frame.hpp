@@ -24,6 +24,10 @@ struct TilesetFrame {
 /// The usual frame with the distinct step.
 [[nodiscard]] TilesetFrame tileset_frame(const std::vector<Vec3>& positions, const WriteSettings& settings);
 
+/// W-GEOCENTRIC if the origin is neither near 0, as in a local frame, nor near the surface of the earth, as
+/// in the geocentric frame (ECEF) for which viewers of the globe take the root's transform.
+[[nodiscard]] std::optional<Diagnostic> warning_of_place(const TilesetFrame& frame);
+
 /// Rounds positions to the frame's grid.
 void put_into_frame(std::vector<Vec3>& positions, const TilesetFrame& frame);
 

@@ -8,6 +8,11 @@ const RegisterMessages tileset_messages{
      "other than GLB, or a broken subtree file of an implicit tiling.",
      "Load the files of its tiles one by one. facetmill reads explicit and implicit tilesets of GLB files.",
      ErrorKind::malformed},
+    {"W-GEOCENTRIC",
+     "A tileset has projected coordinates, such as UTM. Globe viewers read the root's transform as "
+     "geocentric coordinates (ECEF), so they show the tiles far from their position.",
+     "Use `transform: {centre: true}` before `write`, and place the tileset by the viewer's model matrix, in "
+     "Cesium `tileset.modelMatrix`. Or convert the coordinates to EPSG:4978 first."},
 };
 
 } // namespace facetmill

@@ -182,7 +182,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
                         fmt::format("'{}' has no tile with faces", input.name()));
         if (settings.weld != Weld::off) {
             weld_exact(all.mesh);
-            if (merge_equal_wedges(all.mesh) > 0) drop_unused(all.mesh);
+            merge_and_drop_wedges(all.mesh);
         }
         scene.parts.push_back(std::move(all));
         return scene;

@@ -4,6 +4,7 @@
 #include "io/attributes.hpp"
 #include "io/gltf/contents/textures.hpp"
 #include "io/gltf/document/container.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/images/image_files.hpp"
 #include "io/tileset/tiles.hpp"
 #include "io/tileset/tileset.hpp"
@@ -36,6 +37,7 @@ Mesh as_one(const Scene& scene, Written& written) {
         for (auto& changes : {drop_skin(mesh, "tiles have no skins"), drop_morph_targets(mesh)})
             written.changes.insert(written.changes.end(), changes.begin(), changes.end());
         apply(mesh, part.transform);
+        move_colours_to_wedges(mesh);
         append(all, mesh);
     }
     drop_unused(all);
@@ -87,6 +89,7 @@ class TilesetWriter {
         if (mesh.face_count() == 0)
             throw Error(ErrorKind::stage, "E-EMPTY", "a tileset needs at least one face");
         const TilesetFrame frame = tileset_frame(mesh.positions, settings_);
+        if (auto warning = warning_of_place(frame)) written_.warnings.push_back(std::move(*warning));
         put_into_frame(mesh.positions, frame);
         steps.next();
         std::vector<PyramidTile> pyramid = make_pyramid(mesh, {settings_.tiles.faces, frame.step});
@@ -132,7 +135,15 @@ class TilesetWriter {
 } // namespace
 
 Written write(const Scene& scene, const WriteSettings& settings) {
-    return TilesetWriter(scene, settings).run(scene);
+    const auto thick = thicknesses(scene);
+    if (std::all_of(thick.begin(), thick.end(), [](const auto& part) { return part.empty(); }))
+        return TilesetWriter(scene, settings).run(scene);
+    Scene scaled = scene; // tiles have world coordinates, so the thickness of volumes grows with their parts
+    std::vector<LengthGrowth> growth;
+    growth.reserve(scene.parts.size());
+    for (const Part& part : scene.parts) growth.push_back({length_growth(part.transform), 1});
+    scale_material_lengths(scaled, growth);
+    return TilesetWriter(scaled, settings).run(scaled);
 }
 
 } // namespace facetmill::io::tileset

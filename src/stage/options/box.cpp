@@ -25,11 +25,11 @@ Json OptionType<BoxCorners>::schema() { return numbers_schema(6); }
 void declare_box(Declare<BoxOption>& d) {
     d.option("min", &BoxOption::min, "The corner with the smallest coordinates, in scene units.");
     d.option("max", &BoxOption::max, "The corner with the largest coordinates, in scene units.");
-    d.option("centre", &BoxOption::centre, "The centre, in scene units; given together with size.");
+    d.option("centre", &BoxOption::centre, "The centre, in scene units. Needs size.");
     d.option("size", &BoxOption::size, "The lengths of the edges, in scene units.");
     d.option("axis", &BoxOption::axis, "The axis of rotation for angle, through the centre of the box.");
     d.option("angle", &BoxOption::angle,
-             "The rotation of the box, anticlockwise when looking against the axis.");
+             "The rotation of the box, anticlockwise when you look against the axis.");
     d.at_most_one({"min", "centre"});
     d.at_most_one({"max", "size"});
     d.shorthand(ShortForm::list, "[x, y, z, X, Y, Z]: the smallest and the largest corner",
@@ -54,7 +54,7 @@ void verify_box(const BoxOption& box, const Mark& where, Problems& problems) {
             return problems.add(
                 where, "E-BOX",
                 fmt::format("the box has no extent along {}: {}", "xyz"[i], to_string(extent)),
-                box.min ? "max must be greater than min in all three" : "sizes are above zero");
+                box.min ? "max must be greater than min along all three axes" : "sizes must be above zero");
     }
     if (box.axis == Vec3{})
         problems.add(where, "E-BOX", "the axis of the box is zero, so it has no direction",

@@ -36,8 +36,8 @@ void declare_box(Declare<BoxOption>& d);
 /// Adds E-BOX for an invalid box: missing corners or sizes, no volume, a zero axis.
 void verify_box(const BoxOption& box, const Mark& where, Problems& problems);
 
-/// Its six face planes, facing inwards: the box is in front of all of them. Without a rotation they are
-/// axis-aligned and use the given numbers exactly.
+/// The six face planes of the box, facing inwards, so that the box is in front of all planes. Without a
+/// rotation they are axis-aligned and use the given numbers exactly.
 [[nodiscard]] std::vector<Plane> planes_of(const BoxOption& box);
 
 } // namespace facetmill

@@ -11,21 +11,21 @@ namespace facetmill {
 template <class S>
 void declare_cap(Declare<S>& d, bool S::*cap, std::string S::*material) {
     d.option("cap", cap,
-             "Close what the cut opens with faces in the plane, of a material and a group of their own, "
-             "numbered in the face attribute cut_id.")
+             "Closes the cut with faces in the plane. They get their own material and group, and the face "
+             "attribute cut_id numbers them.")
         .also_called("close capped fill fill_cut");
     d.option("cap_material", material,
-             "Name of the caps' material; made when the scene has none of that name.");
+             "The name of the material of caps. It is created if the scene has none with this name.");
 }
 
 /// Declares `triangulate`, for a stage that cuts faces.
 template <class S>
 void declare_triangulate(Declare<S>& d, bool S::*triangulate) {
     d.option("triangulate", triangulate,
-             "Cut all faces into triangles; without this, a cut triangle may become a larger face.");
+             "Cuts all faces into triangles. Otherwise, a cut triangle may become a larger face.");
 }
 
-/// The index of an existing or future material of that name.
+/// The index of an existing or future material with this name.
 [[nodiscard]] Index material_number(const Scene& scene, const std::string& name);
 
 /// Sets the cap settings of clip or crop: the primitive (with the material's number, which add_material may
@@ -37,7 +37,7 @@ void set_cap(Settings& settings, const Scene& scene, const std::string& material
     settings.cap_primitive = Primitive{material_number(scene, material), {}, {}};
 }
 
-/// Appends a material of that name unless the scene has it. Call it only if a cap was made.
+/// Appends a material with this name unless it exists. Call it only if a cap was made.
 void add_material(Scene& scene, const std::string& name);
 
 /// Warns (W-CAP-OPEN) about each contour that the stage did not cap.

@@ -8,7 +8,7 @@ namespace facetmill {
 
 /// All units, after a choice for no unit with this name and meaning.
 [[nodiscard]] std::vector<NamedChoice<Unit>> unit_choices(std::string none, std::string none_help);
-/// The same for up axes.
+/// All up axes, after a choice for no axis with this name and meaning.
 [[nodiscard]] std::vector<NamedChoice<UpAxis>> up_choices(std::string none, std::string none_help);
 
 } // namespace facetmill

@@ -1,6 +1,6 @@
 #pragma once
 // Counts the results of a stage that cuts parts. In a scene of many parts, unchanged and removed parts are
-// normal; a warning is useful only if that is true of all.
+// normal. A warning is useful only if all parts are unchanged, or all are removed.
 
 #include "base/text/readable_numbers.hpp"
 #include "mesh/scene.hpp"
@@ -27,7 +27,7 @@ struct KeptParts {
     std::size_t all() const { return emptied + untouched + cut; }
     bool are_all_emptied() const { return emptied > 0 && emptied == all(); }
     bool are_all_untouched() const { return untouched > 0 && untouched == all(); }
-    /// "part 'wheel'", "the scene (12 parts)".
+    /// The subject of a warning: "part 'wheel'" or "the scene (12 parts)".
     std::string all_of_them() const {
         return all() == 1 ? fmt::format("part '{}'", first)
                           : fmt::format("the scene ({} parts)", grouped(all()));
@@ -39,10 +39,10 @@ template <class Report>
 void declare_kept_parts(DeclareFields<Report>& d, KeptParts Report::*kept) {
     d.field(
         "untouched_parts", [kept](const Report& r) { return (r.*kept).untouched; },
-        "Parts that were kept as they are.");
+        "Parts that were kept unchanged.");
     d.field(
         "emptied_parts", [kept](const Report& r) { return (r.*kept).emptied; },
-        "Parts of which nothing was kept.");
+        "Parts that lost all their faces or points.");
 }
 
 } // namespace facetmill

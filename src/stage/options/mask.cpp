@@ -9,12 +9,12 @@
 namespace facetmill {
 
 void declare_mask(Declare<MaskSettings>& d) {
-    d.option("material", &MaskSettings::material, "Name or glob of the materials whose faces move.");
+    d.option("material", &MaskSettings::material, "The name or glob of the materials whose faces move.");
     d.option("group", &MaskSettings::group,
-             "Number of the group whose faces move, as in face attribute group (without unit).");
+             "The number of the group whose faces move, from the face attribute group.");
     d.option("attribute", &MaskSettings::attribute,
-             "A vertex, wedge or face attribute: its first component, clamped to 0 .. 1, is the share of the "
-             "move.")
+             "A vertex, wedge or face attribute. Its first component, clamped to 0 .. 1, is the share of the "
+             "movement.")
         .also_called(attribute_synonyms)
         .primary();
     d.option("invert", &MaskSettings::invert, "Inverts the mask: each share becomes 1 minus the share.");
@@ -42,14 +42,14 @@ void MaskOfParts::warn_if_idle(Context& context) const {
     if (selected_ > 0)
         return context.warn(
             "W-MASK",
-            fmt::format("{}: the mask selects only vertices of caps: nothing moves", context.name()),
+            fmt::format("{}: the mask selects only vertices of caps, so nothing moves", context.name()),
             "use caps: free");
     std::string materials;
     for (const auto& m : scene_.materials) append_item(materials, m.name);
     context.warn(
         "W-MASK",
-        fmt::format("{}: the mask selects none of {} vertices: nothing moves", context.name(), vertices_),
-        settings_->material.empty() ? std::string("a vertex moves when all its faces are selected")
+        fmt::format("{}: the mask selects none of {} vertices, so nothing moves", context.name(), vertices_),
+        settings_->material.empty() ? std::string("a vertex moves if all its faces are selected")
         : materials.empty()         ? std::string("the scene has no materials")
                                     : "the materials are " + materials);
 }

@@ -12,20 +12,19 @@ void declare_mask(Declare<MaskSettings>& d);
 
 /// The help of the group.
 inline constexpr const char* mask_help =
-    "Which vertices move, and what share of the way: those whose faces all have the material and the group, "
-    "times the attribute.";
+    "Limits the movement of vertices. A vertex moves if all its faces have the given material and group. The "
+    "attribute scales its movement.";
 
 /// Whether the caps of cuts may move.
 enum class Caps { fixed, free };
 
 template <class Options>
 void declare_caps(Declare<Options>& d, Caps Options::*caps) {
-    d.template choice<Caps>(
-        "caps", caps,
-        {{"fixed", Caps::fixed, "they stay planar, and so does the edge of the cut"},
-         {"free", Caps::free, "they move like all others"}},
-        "How the vertices of caps move: those of the faces with which clip, crop and tile "
-        "close their cuts (face attribute cut_id).");
+    d.template choice<Caps>("caps", caps,
+                            {{"fixed", Caps::fixed, "the caps and the edges of the cut stay planar"},
+                             {"free", Caps::free, "vertices of caps move like all others"}},
+                            "How to handle the vertices of caps, the faces with which clip, crop and tile "
+                            "close their cuts (face attribute cut_id).");
 }
 
 /// The masks of the selected parts, with a warning if they leave no vertex to move.
@@ -34,7 +33,7 @@ class MaskOfParts {
     MaskOfParts(const Scene& scene, const std::optional<MaskSettings>& settings, Caps caps)
         : scene_(scene), settings_(settings), caps_(caps) {}
 
-    /// vertex_mask of the part, with 0 for fixed caps; empty when all vertices move.
+    /// vertex_mask of the part, with 0 for fixed caps; empty if all vertices move.
     std::vector<double> of(const Part& part);
     /// Warns (W-MASK) if the mask leaves no vertex of any part to move.
     void warn_if_idle(Context& context) const;
@@ -43,7 +42,7 @@ class MaskOfParts {
     const Scene& scene_;
     const std::optional<MaskSettings>& settings_;
     Caps caps_;
-    std::size_t vertices_ = 0, selected_ = 0, moving_ = 0; ///< of parts with a mask
+    std::size_t vertices_ = 0, selected_ = 0, moving_ = 0; ///< counts for parts with a mask
 };
 
 } // namespace facetmill

@@ -17,7 +17,7 @@ bool refuse(const Value& value, std::string_view expected, Problems& problems) {
     return false;
 }
 
-/// "25%" or "25pct" as a percentage.
+/// Reads "25%" or "25pct" as a percentage.
 std::optional<double> percentage(std::string_view text) {
     for (const std::string_view sign : {"%", "pct"})
         if (text.ends_with(sign)) return parse_real(text.substr(0, text.size() - sign.size()));
@@ -29,7 +29,7 @@ bool is_centre(std::string_view text) { return text == "centre" || text == "cent
 constexpr std::string_view short_forms =
     "a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, [A, B, C, D])";
 
-/// "z=0.2": an axis and a position on it; ignores blanks.
+/// Reads "z=0.2": an axis and a position on it. Ignores blanks.
 bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
     if (value.is_list() || value.text.find(',') != std::string::npos)
         return OptionType<PlaneCoefficients>::parse(value, out.coefficients.emplace(), problems);
@@ -161,18 +161,19 @@ std::string OptionType<PlaneCoefficients>::print(const PlaneCoefficients& value)
 Json OptionType<PlaneCoefficients>::schema() { return numbers_schema(4); }
 
 void declare_plane(Declare<PlaneOption>& d) {
-    d.option("normal", &PlaneOption::normal, "The normal of the plane, of any length except zero.");
+    d.option("normal", &PlaneOption::normal,
+             "The normal of the plane. Its length can be any number except zero.");
     d.option("through", &PlaneOption::through,
              "A point of the plane in scene units, centre (of the bounding box), or a percentage of the "
-             "extent along the normal, where 0% is behind everything.");
+             "extent along the normal. At 0%, everything is in front.");
     d.option("coefficients", &PlaneOption::coefficients,
              "A, B, C, D of A x + B y + C z + D = 0, in scene units; the normal is (A, B, C).");
     d.at_most_one({"normal", "coefficients"});
     d.at_most_one({"through", "coefficients"});
     const Json text = {{"type", "string"}, {"pattern", "^ *[xyz] *="}};
     d.shorthand(ShortForm::text_or_list,
-                "z=0.2, x=10%, y=2mm or z=centre: the plane perpendicular to that axis at that position; [A, "
-                "B, C, D]: its coefficients",
+                "z=0.2, x=10%, y=2mm or z=centre means the plane perpendicular to that axis at that "
+                "position. [A, B, C, D] gives the coefficients.",
                 {{"anyOf", Json::array({text, OptionType<PlaneCoefficients>::schema()})}},
                 [](const Value& value, PlaneOption& out, Problems& problems) {
                     return parse_short(value, out, problems);
@@ -200,7 +201,7 @@ std::optional<Value> length_in_plane(const Value& value) {
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems) {
     if (!plane.normal && !plane.coefficients) {
         problems.add(where, "E-PLANE", "a plane needs a normal or coefficients",
-                     "for example normal: [0, 0, 1]");
+                     "give a direction: plane: {normal: [0, 0, 1]}");
         return;
     }
     const auto zero = [](double x) { return x == 0; };
@@ -208,7 +209,7 @@ void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problem
             ? *plane.normal == Vec3{}
             : std::all_of(plane.coefficients->abcd.begin(), plane.coefficients->abcd.begin() + 3, zero))
         problems.add(where, "E-PLANE", "the plane's normal is zero, so it has no direction",
-                     "for example normal: [0, 0, 1]");
+                     "give a direction: plane: {normal: [0, 0, 1]}");
 }
 
 Plane resolve_plane(const PlaneOption& option, const Scene& scene, Context& context, std::string_view name,

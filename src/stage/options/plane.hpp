@@ -71,8 +71,8 @@ struct OptionType<PlaneOption> {
 /// Adds E-PLANE for an invalid plane: no value, or a zero normal.
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems);
 
-/// The plane in world space. With a part, it is in that part's space, and uses its centre and extent. Records
-/// lengths under the option's name. Throws usage (E-UNIT, E-PLANE).
+/// The plane in world space. With a part, it is in that part's space, and uses its centre and extent.
+/// Records lengths under the option's name. Throws a usage error (E-UNIT, E-PLANE).
 [[nodiscard]] Plane resolve_plane(const PlaneOption& plane, const Scene& scene, Context& context,
                                   std::string_view option, const Part* local = nullptr);
 

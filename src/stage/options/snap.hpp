@@ -4,7 +4,7 @@
 #include "options/declaration.hpp"
 #include "stage/context.hpp"
 
-#include <optional>
+#include <string>
 
 namespace facetmill {
 
@@ -16,22 +16,24 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
     d.template choice<Snap>(
          "snap", snap,
          {{"auto", Snap::automatic,
-           "positions that are 32-bit floats count as on " + what +
-               " within one float's rounding of the part's bounds: the 0.1 of an STL is not the 0.1 of a "
-               "pipeline; others within four roundings of a double"},
-          {"0", Snap::none, "only what is exactly on it does"}},
-         "What counts as on " + what + ".")
+           "32-bit float positions count as on " + what +
+               " if their own rounding explains the distance, because 0.1 in an STL differs slightly from "
+               "0.1 in a pipeline. Other positions count within four roundings of a double"},
+          {"0", Snap::none, "only exact positions count"}},
+         "The positions that count as on " + what + ".")
         .option()
         .schema = {{"enum", {"auto", "0", 0}}};
 }
 
-/// The float32 step at the mesh's position, if it is visible relative to its size and most positions are
-/// float32 numbers; else none.
-[[nodiscard]] std::optional<double> seen_rounding(const Mesh& mesh);
+/// Vertices treated as on a plane or an outline.
+struct Snapped {
+    std::size_t vertices = 0;
+    double by = 0;   ///< the largest distance
+    double size = 0; ///< of the part: the diagonal of its bounds, in the same space
+};
 
-/// Warns (W-SNAPPED) about vertices treated as on a plane or an outline, from up to this distance. what: "the
-/// outline".
-void warn_of_snapping(const std::string& part, std::size_t vertices, double apart, const std::string& what,
+/// Warns (W-SNAPPED) if the distance is visible relative to the part's size. what: "the outline".
+void warn_of_snapping(const std::string& part, const Snapped& snapped, const std::string& what,
                       Context& context);
 
 } // namespace facetmill

@@ -27,11 +27,11 @@ If other faces connect both ends of the edge, a point is added in its middle.
 If that point must be rounded, all faces at the edge use it.
 The edge stays unchanged if this would make faces intersect or lose their area (W-CLEAN).
 
-self_intersections: union combines closed components that pass through each other or themselves into
-a single solid.
+The step self_intersections: union combines closed components that pass through each other or
+themselves into a single solid.
 Faces are cut exactly where they intersect.
-A face is kept if it has the outside (winding number 0 or less) on one side and the inside (1 or
-more) on the other.
+A face is kept if one side is outside (winding number 0 or less) and the other is inside (1 or
+more).
 Cut faces become triangles.
 Other faces stay unchanged.
 Cavities (components turned inward inside a solid) are kept unless another solid fills them.
@@ -43,8 +43,8 @@ Each repetition merges new vertices that are very close to others: within 1e-15 
 first, eight times as far each time.
 If intersections remain, the mesh is not changed.
 
-self_intersections: local replaces intersecting faces region by region, with up to four surrounding
-rings of faces.
+The step self_intersections: local replaces intersecting faces region by region, with up to four
+surrounding rings of faces.
 A region is not changed if its replacement would open the surface, change the topology, remove half
 of a component or leave an intersection.
 
@@ -65,8 +65,13 @@ step.
 Such vertices appear where touching solids were separated.
 They move by 2 to 256 steps of a 32-bit float at the farthest coordinate.
 No move may invert or flatten a face or make it meet another one.
-This test is exact, and vertices that fail it stay in place (W-CLEAN).
-With apart: false, all of them stay in place.
+This test is exact, and vertices that fail it do not move (W-CLEAN).
+With apart: false, no vertex moves.
+
+The step unit_vectors: true runs last.
+It scales normals, tangents and joint weights that the checks unit_normals and weights_normalized
+refuse.
+Other values stay unchanged.
 
 Remaining elements keep their attributes.
 New vertices get interpolated attributes.

@@ -119,11 +119,17 @@ void declare_clean(Declare<CleanOptions>& d) {
         .also_called("remove_unreferenced remove_isolated unreferenced");
     d.option("tolerance", &CleanOptions::tolerance, "The distance for all steps that are set to near.")
         .above(0);
+    d.option("unit_vectors", &CleanOptions::unit_vectors,
+             "Scales normals and tangents to length 1, and the joint weights of each wedge to the sum 1. A "
+             "normal without a direction is computed from the faces around it.")
+        .also_called("normalize normalise normalize_weights renormalize");
     d.choice<bool>(
         "precision", &CleanOptions::single,
         {{"full", false, "64-bit floats"},
          {"single", true,
-          "32-bit floats, as in glTF, STL and most PLY files; the result stays correct in such files"}},
+          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays correct in such "
+          "files. If rounding causes the first intersections, they are resolved as by "
+          "self_intersections: all"}},
         "The precision of vertex coordinates.");
     d.option("apart", &CleanOptions::apart,
              "With precision: single, moves separated vertices at the same position apart by a few steps of "
@@ -170,7 +176,7 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
     const bool near =
         o.weld == Nearness::near || o.stitch == Nearness::near || o.t_junctions == Nearness::near;
     if (near && !o.tolerance)
-        problems.add(given.mark, "E-MISSING", "clean: near needs a tolerance", "tolerance: 0.01% (or 0.1mm)");
+        problems.add(given.mark, "E-MISSING", "clean: near needs a tolerance", "give it: tolerance: 0.01%");
     if (!near && o.tolerance)
         add_refusal(Refusal{"tolerance", "'tolerance' has no effect, because no step is set to near",
                             "set weld, stitch or t_junctions to near"},

@@ -25,7 +25,7 @@ struct CleanOptions {
          inner_components = false;
     Untangle self_intersections = Untangle::off;
     std::optional<Length> tolerance;
-    bool single = false, apart = true;
+    bool single = false, apart = true, unit_vectors = false;
     std::optional<CleanHoleOptions> holes;
     std::optional<CleanComponentOptions> components;
 };

@@ -15,7 +15,7 @@ void declare_not_done(DeclareFields<NotDone>& d) {
 void declare_part(DeclareFields<CleanedPart>& d) {
     d.field("part", &CleanedPart::part, "The name of the part.");
     d.field(
-        "changed", [](const CleanedPart& p) { return p.counts.total() > 0; },
+        "changed", [](const CleanedPart& p) { return p.counts.total() + p.scaled > 0; },
         "Whether the part was changed.");
     const auto count = [&](const char* name, std::size_t CleanCounts::*member, const char* help) {
         d.field(
@@ -36,9 +36,9 @@ void declare_part(DeclareFields<CleanedPart>& d) {
     count("removed_open_components", &C::open_components, "Removed components that stayed open.");
     count("open_component_faces", &C::open_component_faces, "Faces of the removed open components.");
     count("removed_components", &C::components, "Removed small components.");
-    count("component_faces", &C::component_faces, "Faces of the removed open components.");
+    count("component_faces", &C::component_faces, "Faces of the removed small components.");
     count("removed_inner_components", &C::inner_components, "Removed components inside others.");
-    count("inner_component_faces", &C::inner_component_faces, "Faces of the removed open components.");
+    count("inner_component_faces", &C::inner_component_faces, "Faces of the removed inner components.");
     count("isolated_vertices", &C::isolated_vertices, "Removed vertices without faces.");
     count("united_components", &C::united_components,
           "Intersecting closed components that became part of a union.");
@@ -57,6 +57,7 @@ void declare_part(DeclareFields<CleanedPart>& d) {
          },
          "The largest distance that a vertex was moved apart, in the units of its part.")
         .only_when("vertices were moved apart");
+    d.field("scaled", &CleanedPart::scaled, "Normals, tangents and sets of joint weights that were scaled.");
     d.list("not_done", &CleanedPart::not_done, "The first ten repairs that failed.", declare_not_done);
 }
 

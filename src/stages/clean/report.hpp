@@ -9,7 +9,8 @@ namespace facetmill::clean_stage {
 struct CleanedPart {
     std::string part;
     CleanCounts counts;
-    std::vector<NotDone> not_done; ///< the first few failed repairs, in world space
+    std::size_t scaled = 0;        ///< vectors and weights of wedges
+    std::vector<NotDone> not_done; ///< the first few, in world space
 };
 
 struct CleanReport {

@@ -4,6 +4,7 @@
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
+#include "stages/clean/unit_vectors.hpp"
 
 #include <fmt/format.h>
 
@@ -28,9 +29,11 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
         budget = r.budget;
         if (r.short_of_memory) context.mark_uncacheable();
         part.mesh = std::move(r.mesh);
+        std::size_t scaled = 0;
+        if (o.unit_vectors) r.changes = changes_in_sequence(r.changes, scale_to_unit(part.mesh, scaled));
         context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);
-        report.parts.push_back({part.name, r.counts, first_not_done(r.not_done, part.transform)});
+        report.parts.push_back({part.name, r.counts, scaled, first_not_done(r.not_done, part.transform)});
     });
     return scene;
 }
@@ -49,6 +52,7 @@ struct CleanStage : StageOf<run> {
     }
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
+        if (o.unit_vectors) return "cells carry no normals and no joint weights";
         return cells::why_not_in_cells(clean_steps_of(o));
     }
 };
@@ -63,7 +67,7 @@ void CleanStage::on_cells(CellFlow& flow, Context& context) const {
     flow.box = cells::box_of_cells(*flow.partition, flow.transform);
     context.attribute_changes(part, r.changes);
     warn(part, r.not_done, context);
-    const CleanReport report{{{part.name, r.counts, first_not_done(r.not_done, part.transform)}}};
+    const CleanReport report{{{part.name, r.counts, 0, first_not_done(r.not_done, part.transform)}}};
     context.report(*info->result, &report);
     warn_of_lost_surface({{part.name, faces, cleaned.area_before}},
                          {{part.name, flow.partition->faces(), cleaned.area_after}}, may_lose(), context);

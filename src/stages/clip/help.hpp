@@ -14,6 +14,9 @@ Triangles, quads and larger faces, convex or concave, are cut directly.
 A capped closed part always stays closed, even after several planes, when it is non-manifold, or
 when it intersects itself.
 If the part covers a region twice, so does its cap.
+If the kept side touches a plane only at a vertex or an edge, this becomes a corner or an edge of the
+cap.
+A manifold part is separated at these places.
 Points that a clip placed on a plane still count as on that plane in later clips, until a stage
 moves them.
 In a point cloud, points on the kept side stay, and points on a plane count as in front.
@@ -28,14 +31,14 @@ A part without remaining faces stays in the scene as an empty part.
 A box keeps its inside, or everything around it with keep: outside.
 The two results fit together exactly, and caps close both.
 The same holds for several planes with keep: both.
-keep: back alone keeps the region behind every plane.
+With keep: back alone, the stage keeps the region behind every plane.
 
 New vertices and wedges are interpolated once per edge and pair of wedges, so seams are preserved.
 New faces copy the attributes of their original face.
 Caps have their own primitive and material and the normal of the plane.
 They get planar texture coordinates if the part has TEXCOORD_0, and zeros in other face attributes.
 The face attributes cut_id and group identify the caps.
-cut_id is the number of the plane, and 0 elsewhere.
+The number in cut_id is the number of the plane, and 0 elsewhere.
 
 Source: P. Bourke, 'Clipping Polygonal Facets with an Arbitrary Plane' (1997).)";
 

@@ -64,7 +64,7 @@ void declare(Declare<ClipOptions>& d) {
          {"front", Keep::front, "the side that the normal points to, or the inside of the box"},
          {"back", Keep::back, "the other side, or the outside of the box"},
          {"both", Keep::both,
-          "both sides, as parts NAME.front and NAME.back (NAME.inside and NAME.outside for a box); with "
+          "both sides, as parts NAME.front and NAME.back (for a box, NAME.inside and NAME.outside). With "
           "several planes, the back is everything that is not in front of all of them"}},
         "The side to keep.");
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
@@ -173,11 +173,11 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
         const std::size_t had = size(part.mesh);
         settings.planes = cutter.planes_for(part);
         settings.memory = part.cuts ? *part.cuts : CutMemory{};
-        const auto apart = settings.snap ? seen_rounding(part.mesh) : std::nullopt;
+        const double diagonal = part.mesh.bounds().diagonal();
         ClipResult r = clip(std::move(part.mesh), settings);
         warn_of_open("clip", part, r.open, context);
         report.kept.add(part, had, size(r.front) + size(r.back), r.changed);
-        if (apart && r.snapped > 0) warn_of_snapping(part.name, r.snapped, *apart, "a plane", context);
+        warn_of_snapping(part.name, {r.snapped, r.snapped_by, diagonal}, "a plane", context);
         context.attribute_changes(part, r.changes);
         report.cut_faces += r.cut_faces;
         report.cap_faces += r.cap_faces;

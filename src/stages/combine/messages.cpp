@@ -11,9 +11,9 @@ const RegisterMessages combine_messages{
      "part. To use less memory, combine fewer parts at a time.",
      ErrorKind::stage},
     {"W-COMBINE-IDLE", "A part of `with` removes nothing in `combine`.",
-     "Move the part so that it meets the others, or remove it if it lies within another part of `with`. "
-     "`facetmill info` prints the bounds."},
-    {"W-COMBINE-NOTHING", "`combine` leaves nothing of a part.",
+     "Move the part so that it meets the others (`transform: {only: NAME, translate: [0, 0, 1]}`), or leave "
+     "it out of `with`. `facetmill info` prints the bounds."},
+    {"W-COMBINE-NOTHING", "`combine` removes all faces of a part.",
      "For an intersection, use parts that overlap. For a difference, use parts that do not cover it. "
      "`facetmill info` prints the bounds."},
 };

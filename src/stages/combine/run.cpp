@@ -3,6 +3,7 @@
 #include "base/text/words.hpp"
 #include "geometry/boolean/combine.hpp"
 #include "geometry/cut/cap_paint.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/skin.hpp"
 #include "mesh/transform.hpp"
 #include "stage/options/synonyms.hpp"
@@ -27,14 +28,13 @@ struct CombineOptions {
 void declare(Declare<CombineOptions>& d) {
     d.choice<Operation>(
          "operation", &CombineOptions::operation,
-         {{"union", Operation::unite, "what is in any of the parts, as one part"},
-          {"difference", Operation::subtract, "each part without the parts of `with`"},
-          {"intersection", Operation::intersect, "of each part, what is in a part of `with` as well"}},
-         "What is made of the parts.")
+         {{"union", Operation::unite, "all parts, joined into one part"},
+          {"difference", Operation::subtract, "each part minus the parts of `with`"},
+          {"intersection", Operation::intersect, "the volume that each part shares with any part of `with`"}},
+         "The boolean operation.")
         .primary();
-    d.option(
-         "with", &CombineOptions::with,
-         "The parts to combine the others with: names or globs of parts or materials; \"!glob\" excludes.")
+    d.option("with", &CombineOptions::with,
+             "The second operands: names or globs of parts or materials. \"!glob\" excludes.")
         .also_called(with_synonyms);
     d.option("keep", &CombineOptions::keep, "Keeps the parts of `with` in the scene.");
 }
@@ -50,20 +50,19 @@ struct CombineReport {
 };
 
 void declare_part(DeclareFields<CombinedPart>& d) {
-    d.field("part", &CombinedPart::part, "Its name.");
+    d.field("part", &CombinedPart::part, "The name of the part.");
     d.field("with", &CombinedPart::with, "The parts that it was combined with.");
-    d.field("faces", &CombinedPart::faces, "The number of its faces now.");
+    d.field("faces", &CombinedPart::faces, "The number of faces in the result.");
     d.field("cut_faces", &CombinedPart::cut_faces,
-            "Faces cut where they met others, once in each repetition; not those that meet only where a "
-            "third solid "
-            "covers them.");
-    d.field("removed_faces", &CombinedPart::removed_faces, "Faces that were removed without being cut.");
+            "Faces cut where they met others, counted in each repetition. Faces that meet only where a third "
+            "solid covers them do not count.");
+    d.field("removed_faces", &CombinedPart::removed_faces, "Faces that were removed without a cut.");
     d.field("faces_of_with", &CombinedPart::faces_of_with,
-            "Faces of the result that come from the parts it was combined with.");
+            "Faces of the result that come from the other parts.");
 }
 
 void declare_report(DeclareFields<CombineReport>& d) {
-    d.list("parts", &CombineReport::parts, "Each part that was combined.", declare_part);
+    d.list("parts", &CombineReport::parts, "Each combined part.", declare_part);
 }
 
 std::vector<std::string> names_of(const Scene& scene) {
@@ -91,8 +90,9 @@ std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const 
                                                                        : 0);
     if (std::find(operand.begin(), operand.end(), 1) == operand.end() &&
         std::find(operand.begin(), operand.end(), 2) != operand.end())
-        throw Error(ErrorKind::usage, "E-PART", "combine: 'with' leaves no part to be combined",
-                    "the other parts, or those of `only`, are combined with it: load one, or name fewer");
+        throw Error(ErrorKind::usage, "E-PART",
+                    "combine: 'with' contains all parts, so no part is left to be combined",
+                    "load another part, or name fewer parts in 'with'");
     return operand;
 }
 
@@ -103,10 +103,9 @@ std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const 
 /// Checks all preconditions that need no cut.
 void require_solid(const Part& part) {
     if (part.mesh.face_count() == 0)
-        refuse(part, "has no faces", "leave it out with `only`, or check the stages before");
+        refuse(part, "has no faces", "exclude it with `only`, or check the stages before");
     if (!inverse(part.transform))
-        refuse(part, "is flattened by its node",
-               "transform: {bake: true} makes it a flat mesh, which is no solid");
+        refuse(part, "is flattened by its node", "a flat mesh is not a solid; exclude it with `only`");
 }
 
 constexpr const char* no_skin = "combined parts have no skin";
@@ -115,7 +114,7 @@ void warn_of_skin(const Part& part, Context& context) {
     if (part.skinned)
         context.warn("W-SKIN",
                      fmt::format("combine: part '{}' is in bind pose and loses its skin", part.name),
-                     "leave it out with `only`, or write the parts as they are");
+                     "exclude it with `only`, or write the parts without combine");
 }
 
 /// The mesh of a part in the space of another part.
@@ -132,16 +131,17 @@ Mesh in_space_of(const Part& space, const Part& part) {
     const Vec3 at = parts[0]->transform.point(failure.at);
     const std::string place = readable(at, ", ");
     if (failure.mesh != none)
-        refuse(*parts[failure.mesh], fmt::format("is no solid: {}, at {}", failure.why, place),
-               "clean: {holes: minimal} closes it, clean repairs its faces, orient turns it outward");
+        refuse(*parts[failure.mesh], fmt::format("is not a solid: {}, at {}", failure.why, place),
+               "use clean: {holes: minimal} to close it, clean to repair its faces, or orient to turn it "
+               "outward");
     const std::string why = fmt::format("cannot be combined: {} (near {})", failure.why, place);
     if (short_of_memory)
         throw out_of_memory(fmt::format("combine: part '{}' {}", parts[0]->name, why),
-                            "give more --memory, combine some of the parts at a time, the nearest ones first "
-                            "(with `only`), or simplify them before");
+                            "give more --memory, combine fewer parts at a time, nearest first (with `only`), "
+                            "or simplify them before");
     refuse(*parts[0], why,
-           "clean: {precision: single} before makes one of vertices that differ by rounding alone; or "
-           "clean: {self_intersections: union} for each part first, or move one of them by a little");
+           "use clean: {precision: single} first to merge vertices that differ only by rounding, or clean: "
+           "{self_intersections: union} for each part, or move one part a little");
 }
 
 /// Removes group numbers from an operand that cuts the first operand, because they number other things.
@@ -214,9 +214,10 @@ void warn_of_idle(const std::vector<const Part*>& with, const std::vector<std::u
     }
     if (idle == 0) return;
     if (idle > 5) names += fmt::format(" and {} more", idle - 5);
-    context.warn(
-        "W-COMBINE-IDLE", fmt::format("combine: {} {} nothing away", names, idle == 1 ? "takes" : "take"),
-        "beside the other parts, or within another part of 'with'? facetmill info prints the bounds");
+    context.warn("W-COMBINE-IDLE",
+                 fmt::format("combine: {} {} nothing", names, idle == 1 ? "subtracts" : "subtract"),
+                 "move it so that it meets the others (transform: {only: ..., translate: ...}), or leave it "
+                 "out of with; facetmill info prints the bounds");
 }
 
 /// Combines a part with others: meshes before `second` belong to the first operand. The first part gets the
@@ -249,7 +250,7 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
                       {{std::string(group_attribute), Domain::face,
                         r.mesh.find(group_attribute, Domain::face) ? AttributeChange::Kind::recomputed
                                                                    : AttributeChange::Kind::dropped,
-                        "0 on faces of the parts of 'with': theirs number other groups"}});
+                        "0 on faces of the parts of 'with', because they number other groups"}});
     context.attribute_changes(part, r.changes);
     part.skinned = false;
     part.mesh = std::move(r.mesh);
@@ -260,6 +261,15 @@ CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, O
                          ? "the parts of 'with' cover it; facetmill info prints their bounds"
                          : "check that the parts overlap; facetmill info prints their bounds");
     return report;
+}
+
+/// Volumes of glass keep their thickness in the world, although meshes grow in the space of the first part.
+void keep_thickness(Scene& scene, const std::vector<int>& operand, const Part& space) {
+    std::vector<io::LengthGrowth> growth(scene.parts.size());
+    for (std::size_t i = 0; i < growth.size(); ++i)
+        if (operand[i] != 0 && scene.parts[i].transform != space.transform)
+            growth[i].mesh = io::length_growth(*inverse(space.transform) * scene.parts[i].transform);
+    io::scale_material_lengths(scene, growth);
 }
 
 Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport& report) {
@@ -274,6 +284,7 @@ Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport&
         if (operand[i] == 2) second.push_back(&scene.parts[i]);
     }
     if (first.empty()) return scene;
+    keep_thickness(scene, operand, *first.front());
     if (o.operation == Operation::unite) {
         std::vector<const Part*> others(first.begin() + 1, first.end());
         others.insert(others.end(), second.begin(), second.end());

@@ -50,10 +50,10 @@ struct CropOptions {
 };
 
 void declare(Declare<CropOptions>& d) {
-    d.option("footprint", &CropOptions::footprint,
-             "The polygon, in scene units or in the unit that a DXF states: a GeoJSON, WKT or DXF file; WKT "
-             "text; a ring of points; or a list "
-             "of rings, where a ring inside another is a hole.")
+    d.option(
+         "footprint", &CropOptions::footprint,
+         "The polygon: a GeoJSON, WKT or DXF file, WKT text, a ring of points, or a list of rings. A ring "
+         "inside another is a hole. Coordinates are in scene units, unless a DXF gives its own unit.")
         .required()
         .primary();
     d.choice<Axis>("axis", &CropOptions::axis,
@@ -140,8 +140,9 @@ class CropRun {
         else
             sides.push_back(crop(part.mesh, footprint_, settings_));
         note(part, sides, faces);
-        if (const auto apart = sides[0].snapped > 0 ? seen_rounding(part.mesh) : std::nullopt)
-            warn_of_snapping(part.name, sides[0].snapped, *apart, "the outline", context_);
+        const double diagonal = length(part.transform.vector(part.mesh.bounds().extent()));
+        warn_of_snapping(part.name, {sides[0].snapped, sides[0].snapped_by, diagonal}, "the outline",
+                         context_);
         report_.faces_before += faces;
         report_.cut_faces += sides[0].cut_faces;
         report_.snapped += sides[0].snapped;

@@ -16,27 +16,26 @@ namespace {
 void warn_of_dropped(const AttributeChanges& changes, const std::string& part, Context& context) {
     for (const AttributeChange& change : changes)
         if (change.kind == AttributeChange::Kind::dropped)
-            context.warn("W-CELLS",
-                         fmt::format("crumple: cells of part '{}' do not carry {} further: {}", part,
-                                     change.attribute, change.why),
-                         "compute normals when the mesh is in memory, or give more memory");
+            context.warn(
+                "W-CELLS",
+                fmt::format("crumple: cells of part '{}' lose {}: {}", part, change.attribute, change.why),
+                "compute normals when the mesh is in memory, or give more memory");
 }
 
 } // namespace
 
 std::optional<std::string> why_not_on_cells(const CrumpleOptions& o) {
     if (o.grid > cells::FaceCut::most)
-        return fmt::format(
-            "grid: above {} the pieces of a face are too many for cells; split midpoint before it "
-            "makes faces small",
-            cells::FaceCut::most);
+        return fmt::format("grid: above {}, the pieces of a face are too many for cells; use split midpoint "
+                           "first to make faces smaller",
+                           cells::FaceCut::most);
     if (o.direction != CrumpleSettings::Direction::free)
-        return "direction: normals need all faces of a vertex, and cells have some of them; free does not";
+        return "direction: normals need all faces of a vertex, but cells contain only some; free works";
     if (o.boundary != CrumpleSettings::Boundary::free)
-        return "boundary: fixed needs all faces of a vertex, and cells have some of them; free does not";
+        return "boundary: fixed needs all faces of a vertex, but cells contain only some; free works";
     if (o.self_intersections != CrumpleOptions::Intersections::allow)
-        return "self_intersections are between faces anywhere, and need the whole mesh; allow does not";
-    if (o.mask) return "mask: cells do not carry what it is made of";
+        return "self_intersections other than allow need the whole mesh";
+    if (o.mask) return "mask: cells do not contain the data for it";
     return {};
 }
 

@@ -3,7 +3,7 @@
 namespace facetmill {
 
 const RegisterMessages crumple_messages{
-    {"E-INTERSECTS", "Faces would intersect, and the options tell the stage to fail in that case.",
+    {"E-INTERSECTS", "Faces would intersect, and you asked `crumple` to fail in that case.",
      "Use a smaller amplitude, or `self_intersections: avoid`.", ErrorKind::stage},
     {"W-AMPLITUDE", "`crumple` moves vertices farther than the length of the edges, so faces intersect.",
      "Use a smaller amplitude, or `self_intersections: avoid`."},

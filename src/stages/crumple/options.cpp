@@ -17,60 +17,57 @@ using Intersections = CrumpleOptions::Intersections;
 
 void declare_noise(Declare<CrumpleOptions>& d) {
     d.option("frequency", &CrumpleOptions::frequency,
-             "The number of bumps along the diagonal of the scene (a number without unit): vertices that are "
-             "near each other move alike. 0 moves every vertex independently.")
+             "The number of bumps along the diagonal of the scene. Vertices near each other move alike. 0 "
+             "moves every vertex independently.")
         .at_least(0);
     d.option("octaves", &CrumpleOptions::octaves,
-             "With frequency: the number of noise functions that are added, each of twice the frequency of "
-             "the one before (a count); several give a fractal surface.")
+             "With frequency: the number of noise functions to add, each with twice the frequency of the "
+             "previous one. Several octaves give a fractal surface.")
         .between(1, 32);
     d.option("roughness", &CrumpleOptions::roughness,
-             "With frequency and octaves: the amplitude of each octave relative to the one before (a ratio, "
-             "without unit).")
+             "With frequency and octaves: the amplitude of each octave relative to the previous octave.")
         .above(0)
         .at_most(1);
-    d.option("seed", &CrumpleOptions::seed, "The seed of the random numbers (an integer, without unit).")
-        .at_least(0);
+    d.option("seed", &CrumpleOptions::seed, "The seed of the random numbers.").at_least(0);
     d.option("truncate", &CrumpleOptions::truncate,
-             "The distribution is cut off at this many standard deviations (a number without unit).")
+             "The distribution is cut off at this many standard deviations.")
         .between(0.1, 100);
 }
 
 } // namespace
 
 void declare_crumple(Declare<CrumpleOptions>& d) {
-    d.option(
-         "amplitude", &CrumpleOptions::amplitude,
-         "The standard deviation of each displacement (a length; 0.2% of the scene's diagonal unless given).")
+    d.option("amplitude", &CrumpleOptions::amplitude,
+             "The standard deviation of each displacement. Default: 0.2% of the scene's diagonal.")
         .at_least(0)
         .primary();
     d.option("grid", &CrumpleOptions::grid,
-             "The number of segments that each edge is first cut into (a count): every face becomes n x n "
-             "faces; 1 leaves faces whole.")
+             "The number of segments that each edge is split into. Every face becomes n x n faces. 1 keeps "
+             "faces whole.")
         .between(1, 10000);
     d.choice<Direction>("direction", &CrumpleOptions::direction,
                         {{"free", Direction::free, "three independent amounts along x, y and z"},
                          {"normal", Direction::normal, "one amount along the vertex normal"}},
-                        "The direction in which vertices move.");
-    d.choice<Boundary>(
-        "boundary", &CrumpleOptions::boundary,
-        {{"free", Boundary::free, "they move like all others"}, {"fixed", Boundary::fixed, "they stay"}},
-        "How boundary vertices move: those on an edge with exactly one face, where unwelded copies count as "
-        "one vertex.");
+                        "The direction of the displacement.");
+    d.choice<Boundary>("boundary", &CrumpleOptions::boundary,
+                       {{"free", Boundary::free, "boundary vertices move like all others"},
+                        {"fixed", Boundary::fixed, "boundary vertices do not move"}},
+                       "How to handle boundary vertices. A vertex is on the boundary if it is on an edge "
+                       "with exactly one face; unwelded copies count as one vertex.");
     d.choice<Intersections>("self_intersections", &CrumpleOptions::self_intersections,
-                            {{"allow", Intersections::allow, "faces may come to intersect"},
+                            {{"allow", Intersections::allow, "faces may intersect"},
                              {"avoid", Intersections::avoid,
                               "vertices of faces that would intersect move by 1/2, 1/4 ... 1/256 of their "
-                              "displacement, or stay in place"},
-                             {"forbid", Intersections::forbid, "fails when faces would intersect"}},
-                            "What is done when faces of a part would intersect or fold over. With avoid and "
+                              "displacement, or not at all"},
+                             {"forbid", Intersections::forbid, "the stage fails if faces would intersect"}},
+                            "How to handle faces of a part that would intersect or fold over. With avoid and "
                             "forbid, positions are rounded to float32, the precision of most files.")
         .also_called(property_named("self_intersections")->also_called);
     declare_caps(d, &CrumpleOptions::caps);
     d.group("mask", &CrumpleOptions::mask, mask_help, declare_mask);
     declare_noise(d);
     d.option("triangulate", &CrumpleOptions::triangulate,
-             "Cut the quads, which are no longer planar, into triangles along their shorter diagonal.");
+             "Cuts non-planar quads into triangles along their shorter diagonal.");
 }
 
 void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems) {
@@ -79,8 +76,8 @@ void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& probl
     if (frequency && frequency->deferred) return;
     for (const char* name : {"octaves", "roughness"})
         if (given.find(name))
-            add_refusal(Refusal{name, fmt::format("'{}' goes with a frequency above 0 only", name),
-                                "for example frequency: 4, or leave it out"},
+            add_refusal(Refusal{name, fmt::format("'{}' needs a frequency above 0", name),
+                                "for example frequency: 4, or remove it"},
                         "crumple", given, problems);
 }
 

@@ -36,29 +36,29 @@ void declare_shares(DeclareFields<AvoidResult>& d) {
 void declare_avoided(DeclareFields<AvoidResult>& d) {
     d.field(
         "scope", [](const AvoidResult&) { return "faces of the same part"; },
-        "The faces between which intersections were avoided.");
-    d.field("before", &AvoidResult::exempt, "Pairs of faces that intersected before.");
-    d.field(
-        "found", &AvoidResult::found,
-        "Faces that the displacements would make intersect others, lose their area, or draw out by more than "
-        "eight times their longest edge, or less where most would intersect others.");
-    d.field("rounds", &AvoidResult::rounds, "The number of rounds in which shares were lowered.");
+        "The scope of the check for intersections.");
+    d.field("before", &AvoidResult::exempt, "Intersecting pairs of faces before.");
+    d.field("found", &AvoidResult::found,
+            "Faces that full displacements would make intersect, lose their area, or stretch beyond eight "
+            "times their longest edge. The limit is lower if most faces would intersect.");
+    d.field("rounds", &AvoidResult::rounds, "The number of rounds that lowered shares.");
     d.field("coarse", &AvoidResult::coarse,
-            "Positions whose shares were lowered in large steps, to bound the work (W-CRUMPLE-COARSE).");
+            "Positions whose shares were lowered in large steps to limit the work (W-CRUMPLE-COARSE).");
     const auto self = [](const AvoidResult& r) -> const AvoidResult& { return r; };
     d.object("vertices_by_share", self, "The number of vertices for each share of the displacement.",
              declare_shares);
 }
 
 void declare_part(DeclareFields<CrumpleReportPart>& d) {
-    d.field("part", &CrumpleReportPart::part, "Its name.");
-    d.field("added_faces", &CrumpleReportPart::added_faces, "The number of faces added.");
+    d.field("part", &CrumpleReportPart::part, "The name of the part.");
+    d.field("added_faces", &CrumpleReportPart::added_faces, "The number of added faces.");
     d.field("moved_vertices", &CrumpleReportPart::moved, "Vertices that moved.");
     d.field("held_vertices", &CrumpleReportPart::held_vertices,
-            "Vertices that were held: on the boundary, on caps or outside the mask.");
-    d.field("largest_move", &CrumpleReportPart::largest_move, "The largest move of a vertex.")
+            "Vertices that did not move because of the boundary, caps or the mask.");
+    d.field("largest_move", &CrumpleReportPart::largest_move, "The largest displacement of a vertex.")
         .unit("scene units");
-    d.field("root_mean_square_move", &CrumpleReportPart::root_mean_square, "Of all vertices.")
+    d.field("root_mean_square_move", &CrumpleReportPart::root_mean_square,
+            "The root mean square displacement of all vertices.")
         .unit("scene units");
 }
 
@@ -68,7 +68,7 @@ void declare_crumple_report(DeclareFields<CrumpleReport>& d) {
     d.object("self_intersections", &CrumpleReport::self_intersections,
              "The result of avoiding intersections.", declare_avoided)
         .only_when("self_intersections is avoid or forbid");
-    d.list("parts", &CrumpleReport::parts, "Each part that was crumpled.", declare_part);
+    d.list("parts", &CrumpleReport::parts, "Each crumpled part.", declare_part);
 }
 
 void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts, std::int64_t grid) {
@@ -87,12 +87,11 @@ void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> pa
 
 void warn_of_coarse_steps(const AvoidResult& r, Context& context) {
     if (r.coarse == 0) return;
-    context.warn(
-        "W-CRUMPLE-COARSE",
-        fmt::format("crumple: so many faces would intersect that the shares of {} positions were lowered in "
-                    "large steps to bound the work: they move less than necessary",
-                    r.coarse),
-        "use a smaller amplitude, or a smaller grid, whose faces are larger");
+    context.warn("W-CRUMPLE-COARSE",
+                 fmt::format("crumple: so many faces would intersect that the shares of {} positions were "
+                             "lowered in large steps to limit the work: they move less than necessary",
+                             r.coarse),
+                 "use a smaller amplitude, or a smaller grid, which gives larger faces");
 }
 
 void warn_of_tangles(const std::string& part, double mean_edge, double amplitude, Context& context) {
@@ -109,9 +108,8 @@ void warn_of_folds(const CrumpledPart& work, Context& context) {
     if (work.pieces.folded > 0)
         context.warn(
             "W-SPLIT-FOLDED",
-            fmt::format(
-                "in part '{}' {} faces are concave or intersect themselves: the faces made of them overlap",
-                work.part->name, work.pieces.folded),
+            fmt::format("in part '{}' {} faces are concave or intersect themselves, so the new faces overlap",
+                        work.part->name, work.pieces.folded),
             "use triangulate first");
 }
 
@@ -149,7 +147,7 @@ void warn_of_parts(const Scene& scene, Context& context) {
                                 fmt::format("crumple avoids intersections only within a part; the boxes of "
                                             "the parts '{}' and '{}' overlap, so their faces may intersect",
                                             a.name, b.name),
-                                "use merge first to make them one part");
+                                "use merge first to join them");
         }
 }
 

@@ -4,11 +4,13 @@
 namespace facetmill::help::ensure {
 
 inline constexpr const char* about =
-    R"(A contract: the given properties must hold at this point, or the run fails.)";
+    R"(Checks that the given properties hold at this point. Otherwise, the run fails.)";
 
 inline constexpr const char* details =
-    R"(It takes the same assertions as the common key `ensure`, but is a separate stage: it checks the
-scene at this point of the pipeline. Use validate to get evidence, to check each part, or to warn
-only. The mesh passes on unchanged.)";
+    R"(The assertions are the same as for the common key `ensure`, but this stage checks the scene at this
+point of the pipeline.
+Use validate instead to get evidence, to check each part, only to warn, or to check the file after
+write.
+The mesh passes on unchanged.)";
 
 } // namespace facetmill::help::ensure

@@ -15,8 +15,8 @@ struct EnsureOptions {
 void declare(Declare<EnsureOptions>& d) {
     declare_properties(d, &EnsureOptions::assertions, "ensure");
     d.group("deviation", &EnsureOptions::deviation,
-            "How far the surface may be from the scene as loaded, measured both ways; as a common key of a "
-            "stage, from the scene that entered it.",
+            "The largest distance from the surface to the scene as loaded, in both directions. As a common "
+            "key, ensure measures from the input of its stage.",
             declare_deviation);
 }
 
@@ -47,6 +47,7 @@ const RegisterStage registered = make_stage<EnsureStage>(
      .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
                   "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
      .checks = true,
+     .keeps_scene = true,
      .lines = LinesPolicy::work},
     declare);
 

@@ -45,45 +45,43 @@ bool takes(const ShapeOptions& shape, const std::string& option) {
 
 void declare_sizes(Declare<GenerateOptions>& d) {
     d.option("radius", &GenerateOptions::radius,
-             "The radius of sphere, icosphere, cylinder and cone, and of the circle that the tube of the "
-             "torus follows (a length; 1 unless given).")
+             "The radius of sphere, icosphere, cylinder and cone, or of the circle at the centre of the "
+             "torus tube. Default: 1.")
         .above(0);
     d.option("minor_radius", &GenerateOptions::minor_radius,
-             "The radius of the tube of the torus (a length; 0.4 times the radius unless given).")
+             "The radius of the torus tube. Default: 0.4 times the radius.")
         .above(0);
-    d.option("size", &GenerateOptions::size,
-             "The side of cube, grid, gaussian and menger (a length; 2 unless given).")
+    d.option("size", &GenerateOptions::size, "The side of cube, grid, gaussian and menger. Default: 2.")
         .above(0);
     d.option("height", &GenerateOptions::height,
-             "The height of cylinder and cone (a length; twice the radius unless given), or of the peak of "
-             "the gaussian (half its size unless given).")
+             "The height of cylinder and cone (default: twice the radius), or of the gaussian's peak "
+             "(default: half its size).")
         .above(0);
     d.option("spread", &GenerateOptions::spread,
-             "The standard deviation of the gaussian (a length; 15% of its size unless given).")
+             "The standard deviation of the gaussian. Default: 15% of its size.")
         .above(0);
 }
 
 void declare_counts(Declare<GenerateOptions>& d) {
-    d.option("faces", &GenerateOptions::faces,
-             "The number of triangles of the sphere: segments and rings are chosen to come nearest to it "
-             "with faces at the equator that are at most twice as wide as high, or the reverse (a count; "
-             "4000 unless given, which is 80 segments and 26 rings).")
+    d.option(
+         "faces", &GenerateOptions::faces,
+         "The approximate number of triangles of the sphere. Segments and rings are chosen so that faces at "
+         "the equator have sides in a ratio of at most 2. Default: 4000, with 80 segments and 26 rings.")
         .also_called(property_named("faces")->also_called)
         .between(6, 700e6);
     d.option("segments", &GenerateOptions::segments,
-             "Segments around the axis of sphere, torus, cylinder and cone (a count; 48 unless given).")
+             "Segments around the axis of sphere, torus, cylinder and cone. Default: 48.")
         .between(3, 1e6);
     d.option("rings", &GenerateOptions::rings,
-             "Rings of faces of the sphere from pole to pole, or around the tube of the torus (24 unless "
-             "given), or along cylinder and cone (a count; 1 unless given).")
+             "Rings of faces from pole to pole of the sphere or around the torus tube (default: 24), or "
+             "along cylinder and cone (default: 1).")
         .between(1, 1e6);
     d.option("cells", &GenerateOptions::cells,
-             "Cells along each side of cube and grid (10 unless given) and of the gaussian (a count; 40 "
-             "unless given).")
+             "Cells along each side of cube and grid (default: 10) and of the gaussian (default: 40).")
         .between(1, 20000);
     d.option("subdivisions", &GenerateOptions::subdivisions,
-             "The level of menger, 1 to 4 (2 unless given), or how often the icosphere is refined, 0 to 12 "
-             "(a count; 3 unless given).")
+             "The level of menger, from 1 to 4 (default: 2), or the number of refinements of the icosphere, "
+             "from 0 to 12 (default: 3).")
         .between(0, 12);
 }
 
@@ -113,8 +111,7 @@ void verify_torus(const GenerateOptions& o, const Value& given, Problems& proble
         return;
     problems.add(minor->mark, "E-RANGE",
                  fmt::format("generate: minor_radius must be below the radius{}, not {}",
-                             o.radius ? " " + o.radius->text : ", which is 1 unless given",
-                             o.minor_radius->text),
+                             o.radius ? " " + o.radius->text : ", which defaults to 1", o.minor_radius->text),
                  "use a smaller minor_radius or a larger radius");
 }
 
@@ -123,34 +120,34 @@ void verify_torus(const GenerateOptions& o, const Value& given, Problems& proble
 const char* to_string(Shape shape) { return row_of(shape).name; }
 
 void declare_generate(Declare<GenerateOptions>& d) {
-    d.choice<Shape>(
-         "shape", &GenerateOptions::shape,
-         {{"sphere", Shape::sphere, "latitude and longitude: faces crowd at the poles, on the z axis"},
-          {"icosphere", Shape::icosphere, "an icosahedron refined on the sphere: 20 * 4^subdivisions faces"},
-          {"cube", Shape::cube, "a cube with gridded sides"},
-          {"grid", Shape::grid, "a flat square, open"},
-          {"torus", Shape::torus, "a ring around the z axis"},
-          {"cylinder", Shape::cylinder, "along the z axis, with caps or open"},
-          {"cone", Shape::cone, "along the z axis, apex up, with its base or open"},
-          {"gaussian", Shape::gaussian, "the height field of a Gaussian over a square, open"},
-          {"menger", Shape::menger, "the outer surface of a Menger sponge, closed"}},
-         "The shape to generate.")
+    d.choice<Shape>("shape", &GenerateOptions::shape,
+                    {{"sphere", Shape::sphere,
+                      "rings and segments along latitude and longitude; faces are smaller near the poles, on "
+                      "the z axis"},
+                     {"icosphere", Shape::icosphere, "a refined icosahedron with 20 * 4^subdivisions faces"},
+                     {"cube", Shape::cube, "a cube whose sides are grids"},
+                     {"grid", Shape::grid, "a flat, open square"},
+                     {"torus", Shape::torus, "a ring around the z axis"},
+                     {"cylinder", Shape::cylinder, "a cylinder along the z axis, with caps or open"},
+                     {"cone", Shape::cone, "a cone along the z axis with its apex up, with its base or open"},
+                     {"gaussian", Shape::gaussian, "the height field of a Gaussian over a square, open"},
+                     {"menger", Shape::menger, "the outer surface of a Menger sponge, closed"}},
+                    "The shape to generate.")
         .primary()
         .required();
     declare_sizes(d);
     declare_counts(d);
     d.option("caps", &GenerateOptions::caps, "Closes cylinder and cone with caps.");
-    d.option("quads", &GenerateOptions::quads,
-             "Keeps quads where the shape has them instead of cutting them into triangles.");
+    d.option("quads", &GenerateOptions::quads, "Keeps quads instead of cutting them into triangles.");
     d.option("noise", &GenerateOptions::noise,
-             "The standard deviation of Gaussian noise on x, y and z of every vertex (a length; a percentage "
-             "refers to the shape's diagonal).")
+             "The standard deviation of Gaussian noise on x, y and z of every vertex. A percentage refers to "
+             "the shape's diagonal.")
         .at_least(0);
-    d.option("seed", &GenerateOptions::seed, "The seed of the noise (an integer, without unit).").at_least(0);
-    d.choice<Unit>("unit", &GenerateOptions::unit, unit_choices("auto", "the scene's"),
+    d.option("seed", &GenerateOptions::seed, "The seed of the noise.").at_least(0);
+    d.choice<Unit>("unit", &GenerateOptions::unit, unit_choices("auto", "the unit of the scene"),
                    "The unit of the shape's numbers.")
         .also_called(property_named("unit")->also_called);
-    d.option("name", &GenerateOptions::name, "The name of the new part; the name of the shape unless given.");
+    d.option("name", &GenerateOptions::name, "The name of the new part. Default: the name of the shape.");
 }
 
 void verify_generate(const GenerateOptions& o, const Value& given, Problems& problems) {
@@ -164,14 +161,14 @@ void verify_generate(const GenerateOptions& o, const Value& given, Problems& pro
             if (takes(s, entry.key)) append_item(others, s.name);
         if (!others.empty() && !takes(mine, entry.key))
             add_refusal(Refusal{entry.key,
-                                fmt::format("'{}' goes with {}, not with {}", entry.key, others, mine.name),
-                                "leave it out"},
+                                fmt::format("'{}' applies to {}, not to {}", entry.key, others, mine.name),
+                                "remove it"},
                         "generate", given, problems);
     }
     verify_counts(o, given, problems);
     verify_torus(o, given, problems);
     if (o.faces && (o.segments || o.rings))
-        add_refusal(Refusal{"faces", "'faces' stands for 'segments' and 'rings'",
+        add_refusal(Refusal{"faces", "'faces' replaces 'segments' and 'rings'",
                             "give either faces, or segments and rings"},
                     "generate", given, problems);
 }

@@ -82,9 +82,9 @@ struct GenerateReport {
 };
 
 void declare_report(DeclareFields<GenerateReport>& d) {
-    d.field("shape", &GenerateReport::shape, "The shape.");
-    d.field("vertices", &GenerateReport::vertices, "Its vertices.");
-    d.field("faces", &GenerateReport::faces, "Its faces.");
+    d.field("shape", &GenerateReport::shape, "The name of the shape.");
+    d.field("vertices", &GenerateReport::vertices, "The number of vertices.");
+    d.field("faces", &GenerateReport::faces, "The number of faces.");
     d.field("part", &GenerateReport::part, "The name of the part.");
 }
 

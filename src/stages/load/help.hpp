@@ -6,19 +6,31 @@ namespace facetmill::help::load {
 inline constexpr const char* about = R"(Reads mesh files and adds their parts to the scene.)";
 
 inline constexpr const char* details =
-    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix;
-a .gz or .zst file is decompressed. Each mesh, solid or object in a file becomes a part, named as in the
-file or after the file; names are made unique. The scene takes its unit and up axis from the first
-file that has them, and later files are converted to them. Comments in the first lines of OBJ and OFF (`# unit: mm`,
-`# up: z`) and in the headers of PLY and binary STL state them. Lines (l of OBJ, edges of PLY, line primitives of
-glTF) are parts of their own, which stages that work on faces leave as they are; lines beside triangles
-in one glTF mesh get a mesh and a node of their own. The option `lines` gives lines a thickness instead: consecutive
-lines become one closed tube with mitred corners, which ends where a line ends or where more than two
-lines meet. Broken meshes
-are loaded as they are; a malformed file is refused, and the error names the line or byte at fault.
-Coordinates that are no finite numbers refuse a file, too, unless not_finite: drop leaves out their
-vertices. In attributes that have no meaning to facetmill (quality, confidence), nan stays and says that
-there is no number: render shows it as "no value", what is mixed with it (split, clip, simplify) has no
-number either, and formats that cannot hold it get 0 (W-NAN).)";
+    R"(The content of a file determines its format.
+If the content is not conclusive, the suffix decides.
+Files that end in .gz or .zst are decompressed.
+Each mesh, solid or object becomes a part with the name from the file, or else the name of the file.
+Names are made unique.
+
+The scene takes its unit and up axis from the first file that has them.
+Later files are converted to them.
+OBJ and OFF files can give them in comments in the first lines (`# unit: mm`, `# up: z`).
+PLY and binary STL files can give them in the header.
+
+Lines (l in OBJ, edges in PLY, line primitives in glTF) become separate parts.
+Stages that work on faces leave them unchanged.
+Lines and points next to triangles in one glTF mesh get their own mesh and node.
+The option `lines` turns lines into tubes.
+Consecutive lines become one closed tube with mitred corners, which ends where a line ends or more
+than two lines meet.
+
+Broken meshes are loaded unchanged.
+A malformed file is refused, and the error gives the line or byte.
+Files with coordinates that are not finite are also refused, unless not_finite: drop removes these
+vertices.
+Unknown attributes, such as quality and confidence, may contain nan, which means no value.
+The stage render shows nan as "no value".
+When split, clip or simplify mix nan with numbers, the result is nan.
+Formats that cannot store nan get 0 (W-NAN).)";
 
 } // namespace facetmill::help::load

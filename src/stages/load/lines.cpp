@@ -25,8 +25,9 @@ double thickness_of(const Length& given, const Scene& scene, const std::vector<L
     }
     const double thickness = context.resolve(length, scene, "lines");
     if (!(thickness > 0))
-        throw Error(ErrorKind::stage, "E-LINES", "the thickness of the lines is 0: they all lie in one point",
-                    "give it in scene units");
+        throw Error(ErrorKind::stage, "E-LINES",
+                    "the thickness of the lines is 0 because all lines are at one point",
+                    "give the thickness in scene units");
     return thickness;
 }
 
@@ -54,7 +55,7 @@ std::string name_of(const Lines& lines, const Scene& scene) {
 void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickness, int sides,
                Context& context) {
     if (all.empty()) {
-        context.warn("W-LINES", "'lines' is given, but the file has no lines");
+        context.warn("W-LINES", "'lines' is given, but the file has no lines", "leave lines out");
         return;
     }
     const double diameter = thickness_of(thickness, scene, all, context);
@@ -74,10 +75,10 @@ void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickn
     if (sharp > 0)
         context.warn(
             "W-LINES",
-            fmt::format("the tubes intersect themselves at {} too sharp, or with too short sides, for "
-                        "their thickness",
-                        counted(sharp, "corner")),
-            "clean: {self_intersections: union} makes one solid of them");
+            fmt::format(
+                "the tubes intersect themselves at {}, too sharp or with sides too short for their thickness",
+                counted(sharp, "corner")),
+            "use clean: {self_intersections: union} to turn them into a solid");
 }
 
 } // namespace facetmill::load_stage

@@ -3,8 +3,8 @@
 namespace facetmill {
 
 const RegisterMessages load_messages{
-    {"E-LINES", "The lines of a file cannot be given the requested thickness.",
-     "Give `lines` in scene units.", ErrorKind::stage},
+    {"E-LINES", "The lines of a file cannot get the requested thickness.", "Give `lines` in scene units.",
+     ErrorKind::stage},
 };
 
 } // namespace facetmill

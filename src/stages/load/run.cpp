@@ -35,47 +35,46 @@ struct LoadOptions {
 
 void declare(Declare<LoadOptions>& d) {
     d.option("path", &LoadOptions::path,
-             "The mesh file, a glob (scan_*.ply), or a list of these; - is standard input.")
+             "The mesh file, a glob (scan_*.ply), or a list of these. - reads standard input.")
         .also_called(path_synonyms)
         .primary()
         .required();
     d.choice<Unit>("unit", &LoadOptions::unit,
-                   unit_choices("auto", "as the file or its format states, otherwise unknown"),
-                   "The unit of the file's numbers.")
+                   unit_choices("auto", "the unit in the file or of its format, otherwise unknown"),
+                   "The unit of the numbers in the file.")
         .also_called(property_named("unit")->also_called);
     d.choice<UpAxis>("up", &LoadOptions::up,
-                     up_choices("auto", "as the file or its format states, otherwise unknown"),
-                     "The axis that points up in the file.")
+                     up_choices("auto", "the axis in the file or of its format, otherwise unknown"),
+                     "The up axis of the file.")
         .also_called(property_named("up")->also_called);
     d.option("format", &LoadOptions::format,
-             "The name of the format, when neither content nor suffix shows it.")
+             "The name of the format, if neither content nor suffix shows it.")
         .also_called(format_synonyms);
-    d.choice<io::Weld>(
-         "weld", &LoadOptions::weld,
-         {{"auto", io::Weld::automatic, "where the format has no indices (STL) or splits vertices (glTF)"},
-          {"none", io::Weld::off, "never"},
-          {"exact", io::Weld::exact, "always"}},
-         "Whether vertices at exactly the same position are merged.")
+    d.choice<io::Weld>("weld", &LoadOptions::weld,
+                       {{"auto", io::Weld::automatic,
+                         "only for formats without indices (STL) or with split vertices (glTF)"},
+                        {"none", io::Weld::off, "never"},
+                        {"exact", io::Weld::exact, "always"}},
+                       "Merges vertices at exactly the same position.")
         .also_called(weld_synonyms);
     d.choice<bool>("instances", &LoadOptions::expand_instances,
-                   {{"keep", false, "one part, which stages see once (W-INSTANCING); glTF keeps them all"},
-                    {"expand", true, "each is a part"}},
-                   "What becomes of the instances of a glTF node (EXT_mesh_gpu_instancing).");
+                   {{"keep", false,
+                     "one part, so stages see the mesh once (W-INSTANCING); glTF output keeps all instances"},
+                    {"expand", true, "each instance becomes a part"}},
+                   "How to handle instances of a glTF node (EXT_mesh_gpu_instancing).");
     d.choice<bool>("not_finite", &LoadOptions::drop_not_finite,
-                   {{"refuse", false, "the file is refused (E-NAN)"},
-                    {"drop", true, "they are left out, with the faces and lines at them (W-NOT-FINITE)"}},
-                   "What becomes of vertices whose coordinates are not finite numbers (nan, inf).");
-    d.option(
-        "asset_root", &LoadOptions::asset_root,
-        "A folder, or a list of these: the file may name images, buffers and materials anywhere below it "
-        "(../textures/wood.png), not only beside or below itself.");
-    d.option(
-         "lines", &LoadOptions::lines,
-         "Turns the lines of a PLY, OBJ or glTF file into tubes of this thickness (the diameter), parts of "
-         "their own; a percentage is of the diagonal of the file. Without it lines stay lines.")
+                   {{"refuse", false, "refuse the file (E-NAN)"},
+                    {"drop", true, "remove these vertices, with their faces and lines (W-NOT-FINITE)"}},
+                   "How to handle vertices whose coordinates are not finite numbers (nan, inf).");
+    d.option("asset_root", &LoadOptions::asset_root,
+             "A folder or a list of folders. By default, a file may only use images, buffers and materials "
+             "in its own folder and below. With asset_root, it may use files anywhere below these folders "
+             "(../textures/wood.png).");
+    d.option("lines", &LoadOptions::lines,
+             "Turns the lines of a PLY, OBJ or glTF file into tubes with this diameter, as separate parts. A "
+             "percentage refers to the diagonal of the file. By default, lines stay lines.")
         .above(0);
-    d.option("line_sides", &LoadOptions::line_sides, "The number of sides of these tubes (a count).")
-        .between(3, 360);
+    d.option("line_sides", &LoadOptions::line_sides, "The number of sides of the tubes.").between(3, 360);
 }
 
 io::ReadSettings read_settings(const LoadOptions& o, const Folders& places) {
@@ -92,7 +91,8 @@ io::ReadSettings read_settings(const LoadOptions& o, const Folders& places) {
 }
 
 void warn_of_guess(const std::string& what_has, Unit unit, Context& context) {
-    context.warn("W-UNITS", fmt::format("{} no unit: its numbers are taken as {}", what_has, to_string(unit)),
+    context.warn("W-UNITS",
+                 fmt::format("{} no unit, so the numbers are read as {}", what_has, to_string(unit)),
                  "give the unit: load: {path: ..., unit: mm}");
 }
 
@@ -107,7 +107,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     if (!first && done.unit_guessed)
         warn_of_guess(fmt::format("'{}' has", path.string()), scene.unit, context);
     if (!first && !had_unit && scene.unit != Unit::unknown)
-        warn_of_guess("what was loaded before has", scene.unit, context);
+        warn_of_guess("the unit of the scene", scene.unit, context);
 }
 
 Scene run(Scene scene, const LoadOptions& o, Context& context) {
@@ -159,9 +159,9 @@ struct LoadStage : StageOf<run> {
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
         if (o.lines) return "lines need the whole file";
-        if (!o.format.empty()) return "a file in cells is recognised by its contents";
+        if (!o.format.empty()) return "cells support only formats that are recognised by their contents";
         if (o.expand_instances) return "instances need the whole file";
-        if (o.drop_not_finite) return "what is not finite is left out of a whole file";
+        if (o.drop_not_finite) return "not_finite: drop needs the whole file";
         return {};
     }
 };
@@ -199,15 +199,15 @@ void LoadStage::on_cells(CellFlow& flow, Context& context) const {
     if (contents.vertices > flow.partition->vertices())
         context.warn(
             "W-CELLS",
-            fmt::format("{}: cells do not carry {} that no face uses", source->name(),
+            fmt::format("{}: cells lose {} that no face uses", source->name(),
                         counted(contents.vertices - flow.partition->vertices(), "vertex", "vertices")),
-            "use more memory, if they are needed");
+            "give more memory if you need them");
     if (contents.skipped_faces > 0)
         context.warn("W-FACES", fmt::format("{}: {} of fewer than three corners skipped", source->name(),
                                             counted(contents.skipped_faces, "face")));
     for (const std::string& what : contents.dropped)
-        context.warn("W-CELLS", fmt::format("{}: cells do not carry {}", source->name(), what),
-                     "use more memory, if it is needed");
+        context.warn("W-CELLS", fmt::format("{}: cells lose {}", source->name(), what),
+                     "give more memory if you need this data");
     cells::require_as_opened(contents.files);
 }
 

@@ -14,7 +14,7 @@ The area of a polygon is half the length of the sum of the cross products around
 This also holds for concave faces.
 For non-planar faces, it is the area of their projection along the mean normal.
 
-shell describes the surface without thickness.
+The result shell describes the surface without thickness.
 Its centroid is weighted by area, and its inertia about the centroid is the inertia of a thin sheet.
 For a planar polygon, the principal moments are the smallest and largest second moments of area and
 their sum.
@@ -30,7 +30,7 @@ Its signed area is negative if the clockwise part is larger.
 A non-planar polygon that intersects itself has the area of the cross product sum, but no moments.
 In the volume of a solid, each region counts as often as the face winds around it.
 
-solid describes the inside of a closed surface, filled with the density.
+The result solid describes the inside of a closed surface, filled with the density.
 It contains volume, mass, centroid, inertia about the centroid, ascending principal moments with
 their axes, and radii of gyration.
 It is null for open surfaces.
@@ -38,14 +38,14 @@ The total is null if any part is open.
 
 The turn of an edge is the angle between the normals of its two faces.
 It is negative at concave edges.
-aspect_ratio applies to triangles, as in validate, and is 1 for an equilateral triangle.
-kinds counts the types of polygon.
+The result aspect_ratio applies to triangles, as in validate, and is 1 for an equilateral triangle.
+The result kinds counts the types of polygon.
 
 The mean curvature at a vertex is computed from the turns of its edges.
 The Gaussian curvature is a full turn minus the angles at the vertex.
 Both are divided by a third of the area around the vertex.
 Statistics of curvature exclude the boundary.
-total_in_turns is the Euler number of a manifold, whatever its shape.
+The result total_in_turns is the Euler number of a manifold, whatever its shape.
 
 The mesh passes on unchanged, except for the requested attributes.
 

@@ -14,10 +14,11 @@ namespace facetmill::measure_stage {
 
 namespace {
 
-/// Example: "of faces: The smallest angle of a face; none where ..."
+/// "The largest angle of a face. Stored at faces. No value where ..."
 std::string told(const Quantity& q) {
-    std::string text = fmt::format("of {}: {}", q.domain == Domain::face ? "faces" : "vertices", q.help);
-    if (!q.missing.empty()) text += fmt::format(" None {}.", q.missing);
+    std::string text =
+        fmt::format("{} Stored at {}.", q.help, q.domain == Domain::face ? "faces" : "vertices");
+    if (!q.missing.empty()) text += fmt::format(" No value {}.", q.missing);
     return text;
 }
 
@@ -44,7 +45,7 @@ void declare_measure(Declare<MeasureOptions>& d) {
             .option();
     for (const Quantity& q : quantities()) attributes.choices.push_back({std::string(q.name), told(q)});
     d.option("with", &MeasureOptions::with,
-             "The mesh file that deviation is measured from. Default: the scene as loaded.")
+             "The reference mesh file for deviation. Default: the scene as loaded.")
         .also_called(with_synonyms);
     d.option("missing", &MeasureOptions::missing,
              "The value of an attribute where no number exists. Default: nan, which render shows as \"no "

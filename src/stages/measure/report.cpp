@@ -6,6 +6,7 @@
 #include "geometry/measure/statistics_fields.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
+#include "stages/measure/shells.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -106,8 +107,8 @@ void declare_faces(DeclareFields<FaceResult>& d) {
              statistics_fields());
     d.field(
          "signed_area", &FaceResult::signed_area,
-         "The signed areas of the faces projected along x, y and z, added up. A face that runs anticlockwise "
-         "counts as positive, seen from the positive side of the axis. Zero for a closed surface.")
+         "The signed areas of the faces projected along x, y and z, added up. Faces that run anticlockwise, "
+         "seen from the positive side of the axis, count as positive. Zero for a closed surface.")
         .unit("square scene units");
     d.counts("kinds", kinds_of, names, "The number of faces of each kind that occurs.");
     d.field(
@@ -241,6 +242,20 @@ void warn_of_inside_out(const std::string& part, const MassResult& mass, Context
         context.warn("W-INSIDE-OUT",
                      fmt::format("part '{}' is inside out: its volume and inertia are negative", part),
                      "use orient to turn it outward");
+}
+
+void warn_of_shells(const std::string& part, const Mesh& mesh, const MassResult& mass, Context& context) {
+    if (!mass.solid || !(mass.solid->volume > 0)) return;
+    const auto solid = volume_of_overlapping_shells(mesh, mass.solid->volume);
+    if (!solid) return;
+    context.warn(
+        "W-SHELLS",
+        fmt::format("closed shells of part '{}' {} each other: its volume, {}, counts space several times; "
+                    "the solid has {}",
+                    part, solid->unites ? "pass through" : "lie within", readable(mass.solid->volume),
+                    readable(solid->volume)),
+        solid->unites ? "use orient, then clean: {self_intersections: union}, to unite them"
+                      : "use orient to turn inner shells inward, as cavities");
 }
 
 void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,

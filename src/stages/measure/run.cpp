@@ -34,6 +34,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
     if (list_faces) all.csv += face_table_rows(part.name, mesh);
     warn_of_inside_out(part.name, mass, context);
+    warn_of_shells(part.name, mesh, mass, context);
     faces.areas.clear();
     turns.curvature.gaussian.clear();
     turns.curvature.mean.clear();

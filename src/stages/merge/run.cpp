@@ -1,4 +1,7 @@
 #include "base/text/unique_names.hpp"
+#include "base/text/words.hpp"
+#include "io/flatten.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/skin.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stage/stage.hpp"
@@ -6,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill::merge_stage {
 
@@ -30,9 +34,9 @@ struct MergeReport {
 };
 
 void declare_report(DeclareFields<MergeReport>& d) {
-    d.field("part", &MergeReport::part, "The name of the joined part.").only_when("a part was selected");
+    d.field("part", &MergeReport::part, "The name of the joined part.").only_when("a part was merged");
     d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices merged into others.")
-        .only_when("a part was selected");
+        .only_when("a part was merged");
     d.field("merged", &MergeReport::merged, "The names of the joined parts, in order.");
 }
 
@@ -49,12 +53,68 @@ std::string name_beside(const std::vector<Part>& others, const std::string& want
     });
 }
 
+constexpr const char* placed_several_times = "placed several times by EXT_mesh_gpu_instancing";
+
+/// The reason why merging would change what viewers show of a part; null if it would not.
+const char* reason_to_stay(const io::PartView& view) {
+    if (view.animated) return "animated";
+    if (view.hidden) return "hidden";
+    if (view.lower_level || view.has_levels) return "linked to levels of detail";
+    if (view.instanced) return placed_several_times;
+    return nullptr;
+}
+
+/// [parts] true for the selected parts that become one. Warns about the others.
+std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
+    const std::vector<io::PartView> views = io::part_views(scene);
+    std::vector<bool> chosen;
+    chosen.reserve(scene.parts.size());
+    std::map<std::string_view, std::vector<std::string>> staying; // names by reason
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const bool selected = context.selects(scene.parts[i], scene);
+        const char* reason = selected ? reason_to_stay(views[i]) : nullptr;
+        if (reason) staying[reason].push_back(io::one_line(scene.parts[i].name));
+        chosen.push_back(selected && !reason);
+    }
+    for (const auto& [reason, names] : staying)
+        context.warn("W-MERGE-STAYS",
+                     fmt::format("merge: {} {} and {} not merged: {}",
+                                 names.size() == 1 ? "a part is" : counted(names.size(), "part") + " are",
+                                 reason, names.size() == 1 ? "is" : "are", io::some_of(names)),
+                     reason == placed_several_times
+                         ? "load: {instances: expand} makes a part of each"
+                         : "to merge them in their rest pose, write the scene to PLY, which has no nodes, "
+                           "and load that");
+    return chosen;
+}
+
+/// Volumes of glass keep their thickness in the world, although their meshes grow.
+void keep_thickness(Scene& scene, const std::vector<bool>& chosen, Context& context) {
+    const auto thick = io::thicknesses(scene);
+    std::vector<io::LengthGrowth> growth(scene.parts.size());
+    for (std::size_t i = 0; i < growth.size(); ++i) {
+        const Part& part = scene.parts[i];
+        if (!chosen[i] || thick[i].empty()) continue;
+        growth[i].mesh = io::length_growth(part.transform);
+        if (!io::grows_evenly(part.transform))
+            context.warn("W-VOLUME",
+                         fmt::format("merge: the scale of part '{}' differs by direction, so its "
+                                     "thickness becomes the mean of three",
+                                     part.name),
+                         "leave it out with `only`");
+    }
+    io::scale_material_lengths(scene, growth);
+}
+
 Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& report) {
+    const std::vector<bool> chosen = parts_to_merge(scene, context);
+    keep_thickness(scene, chosen, context);
     std::vector<Part> rest;
     std::optional<Part> joined;
     std::size_t place = 0;
-    for (Part& part : scene.parts) {
-        if (!context.selects(part, scene)) {
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        Part& part = scene.parts[i];
+        if (!chosen[i]) {
             rest.push_back(std::move(part));
             continue;
         }

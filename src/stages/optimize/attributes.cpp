@@ -3,6 +3,7 @@
 #include "geometry/edit/equal_wedges.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <string_view>
 
@@ -68,6 +69,29 @@ bool is_unused(const Attribute& a, const io::MaterialNeeds& needs) {
     return !needs.uvs.contains(a.name.back() - '0');
 }
 
+/// The set of TEXCOORD_n, COLOR_n, JOINTS_n or WEIGHTS_n, with its prefix; none for other names.
+std::optional<std::pair<std::string_view, int>> set_of(std::string_view name) {
+    for (const std::string_view prefix : {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"}) {
+        if (!name.starts_with(prefix)) continue;
+        int number = 0;
+        const auto [at, error] =
+            std::from_chars(name.data() + prefix.size(), name.data() + name.size(), number);
+        if (error == std::errc() && at == name.data() + name.size()) return std::pair(prefix, number);
+    }
+    return {};
+}
+
+/// glTF numbers sets without gaps: a set stays while a later one stays.
+bool would_leave_gap(const Mesh& mesh, std::string_view name, const std::vector<std::string>& unused) {
+    const auto own = set_of(name);
+    if (!own) return false;
+    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [&](const Attribute& a) {
+        const auto other = set_of(a.name);
+        return other && other->first == own->first && other->second > own->second &&
+               std::find(unused.begin(), unused.end(), a.name) == unused.end();
+    });
+}
+
 } // namespace
 
 std::vector<std::string> drop_unused_attributes(
@@ -82,6 +106,8 @@ std::vector<std::string> drop_unused_attributes(
         if (a.role == Role::generic && a.domain != Domain::face ? kinds.own
                                                                 : kinds.standard && is_unused(a, *needs))
             dropped.push_back(a.name);
+    const std::vector<std::string> unused = dropped;
+    std::erase_if(dropped, [&](const std::string& name) { return would_leave_gap(mesh, name, unused); });
     if (dropped.empty()) return dropped;
     const auto gone = [&](const std::string& name) {
         return std::find(dropped.begin(), dropped.end(), name) != dropped.end();
@@ -92,7 +118,7 @@ std::vector<std::string> drop_unused_attributes(
         if (!std::all_of(p.attributes.begin(), p.attributes.end(),
                          gone)) // an empty list would mean all attributes
             std::erase_if(p.attributes, gone);
-    if (merge_equal_wedges(mesh) > 0) drop_unused(mesh);
+    merge_and_drop_wedges(mesh);
     return dropped;
 }
 

@@ -3,36 +3,51 @@
 
 namespace facetmill::help::optimize {
 
-inline constexpr const char* about =
-    R"(Makes a scene cheaper to load and to draw, without a change of what is seen.)";
+inline constexpr const char* about = R"(Makes a scene faster to load and to draw without a visible change.)";
 
 inline constexpr const char* details =
-    R"(dedup makes one of images of equal bytes, equal samplers, textures and materials, meshes that are
-equal to the bit, vertices of one place with equal attributes, and accessors of equal bytes. join
-makes one part of those that share their materials and have the same attributes, in the place of the
-first of them, and one primitive of those of one material. prune erases materials, textures,
-samplers, images, meshes and accessors that nothing uses, the least and greatest numbers of
-accessors that glTF does not ask for, tracks of animations that keep a node where it is without them
-(within 1e-6 of the scene's diagonal, 1e-5 of a scale or a quaternion), and the nodes that join,
-flatten and instance have emptied, with the groups above them that have nothing else.
+    R"(The option dedup merges duplicates.
+These are images and accessors with equal bytes, equal samplers, textures and materials, exactly
+equal meshes, and vertices with equal positions and attributes.
 
-On request: drop_attributes drops texture coordinates that no texture reads, tangents without a map
-of normals, normals of unlit materials, what morph targets displace of them, and colours that are
-white throughout (not beside extensions of a primitive), and merges vertices that only these kept
-apart. drop_own does the same to attributes that glTF does not know, whose names begin with _ there.
-palette makes one material of those that are nothing but plain colours, metalness, roughness and
-emission, with a pixel of 8 bits a channel for each, for parts without texture coordinates; parts of
-different colours can be joined then. flatten moves nodes to the top of the scene. instance makes
-one node, with a list of places, of parts that share a mesh and are not mirrored; later stages see
-its mesh once, so it comes last. `load: {instances: expand}` is its reverse.
+The option join merges parts with the same materials and attributes into the first of them.
+It also merges primitives with the same material.
 
-Parts stay by themselves, where they are, that are skinned, animated or joints, are not in the
-scene that viewers show, have morph targets, a camera, extras or extensions (also of their mesh or of a node above them), or, for join, share
-their mesh with another part (unless join_shared, or the same meshes stand together at each of their
-places: then they become one mesh, which stays shared); so do those that `only` leaves out.
+The option prune removes unused materials, textures, samplers, images, meshes and accessors.
+It removes accessor bounds that glTF does not require.
+It also removes animation tracks that do not move a node (within 1e-6 of the scene's diagonal, or
+1e-5 for scales and quaternions).
+Finally, it removes nodes that join, flatten and instance emptied, and groups that become empty.
 
-Names are lost with what was joined or made one; keep_names keeps apart what has different names.
-Nothing is erased from a document with an extension whose references are not known, and nothing in
-it is joined, moved or painted.)";
+Other steps must be requested.
+The option drop_attributes removes texture coordinates without a texture, tangents without a normal
+map, normals of unlit materials, and their morph target data.
+It also removes colours that are entirely white, unless the primitive has extensions.
+It then merges vertices that differed only in these attributes.
+The option drop_own does the same for attributes unknown to glTF, whose names begin with _.
+
+The option palette replaces plain materials by one material, for parts without texture coordinates.
+Each original material becomes a pixel with 8 bits per channel.
+A plain material has only colour, metalness, roughness and emission.
+Parts of different colours can then be joined.
+
+The option flatten moves nodes to the top of the scene.
+The option instance replaces parts that share a mesh, and are not mirrored, by one node with a list
+of positions.
+Later stages see this mesh once, so use instance last.
+The reverse of instance is `load: {instances: expand}`.
+
+Some parts stay separate and unchanged.
+They are skinned, animated or joints, they are outside the scene that viewers show, or they have
+morph targets, a camera, extras or extensions.
+Extras and extensions of their mesh or parent nodes count as well.
+Parts that `only` excludes also stay unchanged.
+The option join leaves out parts that share their mesh with others, unless join_shared is on.
+If the same meshes appear together at several positions, join merges them into one shared mesh.
+
+Merged items lose their names.
+The option keep_names prevents merging items with different names.
+A document with an extension whose references are unknown is not changed: nothing is removed,
+joined, moved or painted.)";
 
 } // namespace facetmill::help::optimize

@@ -1,8 +1,11 @@
 #include "stages/optimize/join.hpp"
 
+#include "geometry/edit/equal_wedges.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/transform.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -28,12 +31,24 @@ std::string kind_of(const Mesh& mesh) {
         materials.insert(p.material);
     }
     if (materials.empty()) materials.insert(none);
-    std::set<std::string> attributes; // in any order
+    std::set<std::string> attributes; // the attributes in any order
     for (const Attribute& a : mesh.attributes)
         if (a.name != primitive_attribute)
             attributes.insert(fmt::format("{} {} {} {} {} {}", a.name, int(a.domain), int(a.role),
                                           a.components, a.normalised, a.data.index()));
     return fmt::format("{} | {}", fmt::join(materials, " "), fmt::join(attributes, ", "));
+}
+
+/// The scale of a transform along all directions, to a millionth. Equal keys keep lengths equal.
+std::string scale_key(const Transform& t) {
+    const Vec3 axes[3] = {t.vector({1, 0, 0}), t.vector({0, 1, 0}), t.vector({0, 0, 1})};
+    double whole = 0;
+    for (const Vec3& a : axes) whole += dot(a, a);
+    std::string key = fmt::format(" | {:.6g}", whole);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i; j < 3; ++j)
+            key += fmt::format(" {:.0f}", std::floor(dot(axes[i], axes[j]) / whole * 1e6 + 0.5) + 0.0);
+    return key;
 }
 
 } // namespace
@@ -62,9 +77,11 @@ bool join_primitives(Mesh& mesh) {
 
 std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<std::size_t>& candidates) {
     std::map<std::string, JoinedParts> by_kind;
+    const auto thick = io::thicknesses(scene);
     for (const std::size_t i : candidates) {
-        const std::string kind = kind_of(scene.parts[i].mesh);
+        std::string kind = kind_of(scene.parts[i].mesh);
         if (kind.empty()) continue;
+        if (!thick[i].empty()) kind += scale_key(scene.parts[i].transform);
         const auto [group, first] = by_kind.try_emplace(kind, JoinedParts{i, {}});
         if (!first) group->second.others.push_back(i);
     }
@@ -111,6 +128,8 @@ void join(Scene& scene, const JoinedParts& group) {
     first.changed = true;
     first.cuts.reset();
     join_primitives(first.mesh);
+    weld_exact(first.mesh);
+    merge_and_drop_wedges(first.mesh);
 }
 
 } // namespace facetmill::optimize_stage

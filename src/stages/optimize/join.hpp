@@ -22,7 +22,7 @@ struct JoinedParts {
 };
 
 /// Groups the candidate parts (ascending numbers) that share materials and have the same attributes. Groups
-/// have two or more parts.
+/// have two or more parts. Parts with a thickness (KHR_materials_volume) must also be scaled alike.
 [[nodiscard]] std::vector<JoinedParts> groups_to_join(const Scene& scene,
                                                       const std::vector<std::size_t>& candidates);
 

@@ -6,10 +6,10 @@ const RegisterMessages optimize_messages{
     {"W-OPTIMIZE",
      "`optimize` removes and merges nothing in a document, because an extension may refer to items by their "
      "numbers.",
-     "Remove the extension first if you do not need it."},
+     "Export the file without the extension that the message names, if you do not need it."},
     {"W-PALETTE",
      "`optimize` made no palette, because texture coordinates cannot distinguish more than 512 materials.",
-     "Optimize some of the parts at a time with `only`."},
+     "Use `only` to optimize fewer parts at a time."},
 };
 
 } // namespace facetmill

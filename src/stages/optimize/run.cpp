@@ -1,6 +1,7 @@
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
 #include "geometry/edit/equal_wedges.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
@@ -26,31 +27,30 @@ struct OptimizeOptions {
 
 void declare(Declare<OptimizeOptions>& d) {
     d.option("dedup", &OptimizeOptions::dedup,
-             "Makes one of equal images, samplers, textures, materials, meshes and accessors.");
+             "Merges equal images, samplers, textures, materials, meshes and accessors.");
     d.option("drop_attributes", &OptimizeOptions::drop_attributes,
-             "Drops texture coordinates, tangents, normals and white colours that no material needs.");
+             "Removes texture coordinates, tangents, normals and white colours that no material needs.");
     d.option("drop_own", &OptimizeOptions::drop_own,
-             "Drops attributes that glTF does not know, such as _quality, which no viewer reads.");
+             "Removes attributes that glTF does not define, such as _quality. Viewers ignore them.");
     d.option("palette", &OptimizeOptions::palette,
-             "Makes one material, with a pixel of a texture for each, of materials of plain colours.");
+             "Merges plain-coloured materials into one material whose texture has a pixel for each.");
     d.option("palette_min", &OptimizeOptions::palette_min,
-             "The fewest different looks that are worth a palette (a count).")
+             "The minimum number of different materials for a palette.")
         .between(2, 512);
     d.option("flatten", &OptimizeOptions::flatten,
-             "Moves the nodes of parts to the top of the scene; groups that become empty go.");
-    d.option(
-        "instance", &OptimizeOptions::instance,
-        "Makes one node of parts that share a mesh (EXT_mesh_gpu_instancing): one draw call. Later stages "
-        "see its mesh once.");
+             "Moves the nodes of parts to the top of the scene and removes groups that become empty.");
+    d.option("instance", &OptimizeOptions::instance,
+             "Replaces parts that share a mesh by one node (EXT_mesh_gpu_instancing), drawn in one call. "
+             "Later stages see its mesh once.");
     d.option("instance_min", &OptimizeOptions::instance_min,
-             "The fewest parts of one mesh that become instances (a count).")
+             "The minimum number of parts with the same mesh that become instances.")
         .between(2, 65536);
-    d.option("join", &OptimizeOptions::join, "Joins parts that share their materials.");
+    d.option("join", &OptimizeOptions::join, "Joins parts that have the same materials.");
     d.option("join_shared", &OptimizeOptions::join_shared,
-             "Joins parts that share their mesh with others, too: fewer draw calls, but more bytes.");
-    d.option("prune", &OptimizeOptions::prune, "Erases what nothing uses.");
+             "Also joins parts that share their mesh with others: fewer draw calls, but more bytes.");
+    d.option("prune", &OptimizeOptions::prune, "Removes unused items.");
     d.option("keep_names", &OptimizeOptions::keep_names,
-             "Keeps apart what has different names: materials, meshes, and the parts that join would join.");
+             "Does not merge items with different names: materials, meshes and parts.");
 }
 
 struct OptimizeReport {
@@ -90,7 +90,7 @@ class Optimizing {
         if (o_.instance) instance();
         if (o_.join) join_parts();
         if (o_.dedup)
-            for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors();
+            for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors(o_.keep_names);
         if (o_.prune) drop_tracks();
         erase();
         report_.draw_calls_after = draw_calls_of(scene_);
@@ -168,7 +168,7 @@ class Optimizing {
             const auto numbers = [](const Primitive& p) { return !p.json.empty(); };
             if (std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(), numbers)) continue;
             const std::size_t before = part.mesh.wedge_count();
-            if (merge_equal_wedges(part.mesh) > 0) drop_unused(part.mesh);
+            merge_and_drop_wedges(part.mesh);
             const std::size_t merged = before - part.mesh.wedge_count();
             part.changed |= merged > 0;
             report_.equal_vertices += merged;
@@ -192,7 +192,7 @@ class Optimizing {
             for (const std::string& name : dropped) {
                 names.insert(name);
                 context_.attribute_changes(part, {{name, Domain::wedge, AttributeChange::Kind::dropped,
-                                                   "nothing that is drawn needs it"}});
+                                                   "no drawn material needs it"}});
             }
             part.changed |= !dropped.empty();
         }
@@ -225,11 +225,10 @@ class Optimizing {
         report_.palettes = made.palettes;
         report_.palette_materials = made.materials;
         if (made.too_many_looks > 0)
-            context_.warn(
-                "W-PALETTE",
-                fmt::format("optimize: no palette was made of {} different looks: it has at most {}",
-                            made.too_many_looks, most_looks),
-                "optimize by parts: only: [...] beside it names some of them");
+            context_.warn("W-PALETTE",
+                          fmt::format("optimize: no palette was made of {} materials: it has at most {}",
+                                      made.too_many_looks, most_looks),
+                          "use only: [...] to optimize fewer parts at a time");
     }
 
     void flatten() {
@@ -365,8 +364,8 @@ class Optimizing {
     }
 
     void drop_tracks() {
-        const Box box = scene_.bounds();
-        constexpr double ratio = 1e-6; // times the diagonal
+        const Box box = io::drawn_bounds(scene_);
+        constexpr double ratio = 1e-6; // of the diagonal
         const double within = box.empty() ? 0 : ratio * length(box.extent());
         for (auto& tidy : tidies_) tidy.drop_resting_tracks(within);
     }
@@ -375,7 +374,7 @@ class Optimizing {
         for (const Part& part : scene_.parts)
             if (part.document >= 0 && part.source_mesh >= 0)
                 requests_[number(part.document)].meshes.insert(number(part.source_mesh));
-        if (o_.prune) drop_materials();
+        if (o_.prune && !scene_.parts.empty()) drop_materials(); // a library of materials keeps them
         for (const Material& m : scene_.materials)
             if (m.document >= 0 && m.index >= 0)
                 requests_[number(m.document)].materials.insert(number(m.index));
@@ -385,8 +384,8 @@ class Optimizing {
             add(tidies_[d].erased());
             if (!tidies_[d].numbers_are_known())
                 context_.warn("W-OPTIMIZE",
-                              fmt::format("optimize: nothing is erased from '{}' or joined in it: it has an "
-                                          "extension that may name things by their numbers",
+                              fmt::format("optimize: nothing was removed or joined in '{}' because it has an "
+                                          "extension that may refer to items by their numbers",
                                           scene_.documents[d]->name));
             scene_.documents[d] = tidies_[d].finish(scene_.documents[d]);
         }
@@ -462,41 +461,42 @@ std::vector<std::string> told(const io::TidyCounts& erased) {
 }
 
 void declare_erased(DeclareFields<io::TidyCounts>& d) {
-    d.field("nodes", &io::TidyCounts::nodes, "That join has emptied, and the groups above them.");
-    d.field("meshes", &io::TidyCounts::meshes, "Joined, equal to others, or unused.");
-    d.field("materials", &io::TidyCounts::materials, "Equal to others, or unused.");
-    d.field("textures", &io::TidyCounts::textures, "Equal to others, or unused.");
-    d.field("samplers", &io::TidyCounts::samplers, "Equal to others, or unused.");
-    d.field("images", &io::TidyCounts::images, "Equal to others, or unused.");
-    d.field("accessors", &io::TidyCounts::accessors, "Of what was erased, or unused.");
-    d.field("tracks", &io::TidyCounts::tracks, "Of animations, that keep a node where it is without them.");
+    d.field("nodes", &io::TidyCounts::nodes, "Nodes that join emptied, and groups that became empty.");
+    d.field("meshes", &io::TidyCounts::meshes, "Joined, duplicate or unused meshes.");
+    d.field("materials", &io::TidyCounts::materials, "Duplicate or unused items.");
+    d.field("textures", &io::TidyCounts::textures, "Duplicate or unused items.");
+    d.field("samplers", &io::TidyCounts::samplers, "Duplicate or unused items.");
+    d.field("images", &io::TidyCounts::images, "Duplicate or unused items.");
+    d.field("accessors", &io::TidyCounts::accessors, "Accessors of removed items, or unused.");
+    d.field("tracks", &io::TidyCounts::tracks, "Animation tracks that do not move a node.");
 }
 
 void declare_report(DeclareFields<OptimizeReport>& d) {
     d.field("draw_calls_before", &OptimizeReport::draw_calls_before,
-            "Primitives of all parts that entered: each is drawn by itself.");
-    d.field("draw_calls_after", &OptimizeReport::draw_calls_after, "Primitives of all parts that left.");
-    d.field("parts_before", &OptimizeReport::parts_before, "Parts that entered.");
-    d.field("parts_after", &OptimizeReport::parts_after, "Parts that left.");
-    d.field("equal_materials", &OptimizeReport::equal_materials,
-            "Materials that another one stands for now.");
-    d.field("equal_meshes", &OptimizeReport::equal_meshes, "Meshes that another one stands for now.");
+            "Primitives of all parts in the input. Each needs a draw call.");
+    d.field("draw_calls_after", &OptimizeReport::draw_calls_after, "Primitives of all parts in the result.");
+    d.field("parts_before", &OptimizeReport::parts_before, "Parts in the input.");
+    d.field("parts_after", &OptimizeReport::parts_after, "Parts in the result.");
+    d.field("equal_materials", &OptimizeReport::equal_materials, "Duplicate materials that were merged.");
+    d.field("equal_meshes", &OptimizeReport::equal_meshes, "Duplicate meshes that were merged.");
     d.field("equal_accessors", &OptimizeReport::equal_accessors,
-            "Accessors of the documents that another one stands for now.");
+            "Duplicate accessors of the documents that were merged.");
     d.field("equal_vertices", &OptimizeReport::equal_vertices,
-            "Vertices of one place and equal attributes that another one stands for now.");
+            "Vertices with equal positions and attributes that were merged.");
     d.field("dropped_attributes", &OptimizeReport::dropped_attributes,
-            "The names of the attributes that nothing needs which is drawn.");
-    d.field("palettes", &OptimizeReport::palettes, "Materials made of many.");
-    d.field("palette_materials", &OptimizeReport::palette_materials, "Materials that went into them.");
+            "Names of the removed attributes, which nothing drawn needs.");
+    d.field("palettes", &OptimizeReport::palettes, "Palette materials that were made.");
+    d.field("palette_materials", &OptimizeReport::palette_materials, "Materials that palettes replaced.");
     d.field("flattened_parts", &OptimizeReport::flattened_parts,
-            "Parts that are at the top of the scene now.");
+            "Parts that were moved to the top of the scene.");
     d.field("instanced_meshes", &OptimizeReport::instanced_meshes,
-            "Meshes that have one node for many places now.");
-    d.field("instances", &OptimizeReport::instances, "The places that these have, which were parts.");
-    d.field("joined_parts", &OptimizeReport::joined_parts, "Parts that went into another one.");
-    d.field("joined", &OptimizeReport::joined, "The names of the parts that others went into.");
-    d.object("erased", &OptimizeReport::erased, "What the documents lost.", declare_erased);
+            "Meshes with one node for many positions.");
+    d.field("instances", &OptimizeReport::instances,
+            "The positions of these meshes, which were parts before.");
+    d.field("joined_parts", &OptimizeReport::joined_parts, "Parts that were joined into another part.");
+    d.field("joined", &OptimizeReport::joined, "Names of the parts that others were joined into.");
+    d.object("erased", &OptimizeReport::erased, "Items that were removed from the documents.",
+             declare_erased);
     d.tell([](const OptimizeReport& r) {
         std::vector<std::string> lines{fmt::format("{} -> {} draw calls, {} -> {} parts",
                                                    grouped(r.draw_calls_before), grouped(r.draw_calls_after),
@@ -510,8 +510,9 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
 Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeReport& report) {
     try {
         Optimizing(scene, o, context, report).run();
-    } catch (const Json::exception& e) {
-        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), {}, context.where());
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::malformed, "E-GLTF",
+                    "a member of the document has another type than glTF gives it", {}, context.where());
     }
     return scene;
 }

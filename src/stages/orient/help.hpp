@@ -6,18 +6,26 @@ namespace facetmill::help::orient {
 inline constexpr const char* about = R"(Makes neighbouring faces consistent and turns their front outward.)";
 
 inline constexpr const char* details =
-    R"(Orientation is propagated across edges with exactly two faces; edges with more faces separate the
-surface into components. The outside of a closed component is determined by its volume and by how
-many closed components it lies in: one inside another is a cavity and faces inward, one inside a
-cavity faces outward again. Components that touch or intersect are not cavities of each other. This
-is decided exactly, by rays along an axis that never hit an edge. The outside of an open component
-is the side from which more rays escape; where both sides are equal (a flat sheet) the component is
-only made consistent (W-ORIENT-OPEN). A component that cannot be oriented, such as a Moebius strip,
-is left as it was and reported (W-ORIENT).
+    R"(Orientation spreads across edges with exactly two faces.
+Edges with more faces divide the surface into components.
 
-A part whose node mirrors it is examined in its local space, as glTF requires. The first corner of a
-reversed face stays first. Normals that then point against their faces are reversed, and so is the
-handedness of their tangents; everything else is kept.
+For a closed component, the outside follows from its volume and from the number of closed components
+around it.
+A component inside another is a cavity and faces inward.
+A component inside a cavity faces outward again.
+Components that touch or intersect are not cavities of each other.
+These decisions are exact and use rays along an axis that never hit an edge.
+
+For an open component, the outside is the side from which more rays escape.
+If both sides are equal, as for a flat sheet, the component is only made consistent (W-ORIENT-OPEN).
+A component that cannot be oriented, such as a Moebius strip, stays unchanged and is reported
+(W-ORIENT).
+
+A part whose node mirrors it is oriented in its local space, as glTF requires.
+The first corner of a reversed face stays first.
+Normals that then point against their faces are reversed, and so is the handedness of their
+tangents.
+All other data is kept.
 
 Source: P. Bourke, 'Facets, planes, normals, rendering' (1992).)";
 

@@ -4,7 +4,7 @@ namespace facetmill {
 
 const RegisterMessages orient_messages{
     {"W-ORIENT", "A part is not orientable and stays unchanged.",
-     "Use `clean` first, unless the part is a Moebius strip."},
+     "Cut it at the position in the message with `clip`, or give it faces on both sides with `two-sided`."},
     {"W-ORIENT-OPEN", "The outside of an open part is not clear.",
      "Close it first with `clean`, or check the image that `render` makes."},
 };

@@ -16,16 +16,16 @@ namespace {
 void declare(Declare<OrientSettings>& d) {
     d.choice<OrientMethod>(
          "method", &OrientSettings::method,
-         {{"outward", OrientMethod::outward, "neighbours are consistent, and the front is on the outside"},
+         {{"outward", OrientMethod::outward, "neighbours become consistent, and the front faces outward"},
           {"consistent", OrientMethod::consistent,
-           "neighbours are consistent; the front is the side that most faces had as front"},
+           "neighbours become consistent, and most faces keep their front"},
           {"flip", OrientMethod::flip, "every face is reversed"}},
-         "How faces are oriented.")
+         "How to orient faces.")
         .primary();
     d.choice<Nested>("nested", &OrientSettings::nested,
-                     {{"cavities", Nested::cavities, "it is a cavity, and its front faces the hollow"},
-                      {"solids", Nested::solids, "it is a solid of its own"}},
-                     "What a closed component inside another one is (with outward).");
+                     {{"cavities", Nested::cavities, "it is a cavity, so its front faces the hollow"},
+                      {"solids", Nested::solids, "it is a separate solid"}},
+                     "The meaning of a closed component inside another one (with outward).");
 }
 
 struct OrientedPart {
@@ -38,17 +38,18 @@ struct OrientReport {
 };
 
 void declare_part(DeclareFields<OrientedPart>& d) {
-    d.field("part", &OrientedPart::part, "Its name.");
+    d.field("part", &OrientedPart::part, "The name of the part.");
     d.field("flipped_faces", &OrientedPart::flipped_faces, "Faces that were reversed.");
-    d.field("components", &OrientedPart::components, "Components connected through edges with two faces.");
-    d.field("closed_components", &OrientedPart::closed, "Those that are closed.");
-    d.field("nested_components", &OrientedPart::nested, "Those that lie inside another.");
-    d.field("non_orientable_components", &OrientedPart::non_orientable, "Those that were left as they were.");
-    d.field("undecided_components", &OrientedPart::undecided, "Those without a clear outside.");
+    d.field("components", &OrientedPart::components, "Components, connected through edges with two faces.");
+    d.field("closed_components", &OrientedPart::closed, "Closed components.");
+    d.field("nested_components", &OrientedPart::nested, "Components inside another component.");
+    d.field("non_orientable_components", &OrientedPart::non_orientable,
+            "Components that stayed unchanged because they cannot be oriented.");
+    d.field("undecided_components", &OrientedPart::undecided, "Components without a clear outside.");
 }
 
 void declare_report(DeclareFields<OrientReport>& d) {
-    d.list("parts", &OrientReport::parts, "Each part that was oriented.", declare_part).tallied("no faces");
+    d.list("parts", &OrientReport::parts, "Each oriented part.", declare_part).tallied("no faces");
 }
 
 OrientedPart counts_of(const Part& part, const OrientResult& r) {
@@ -75,19 +76,17 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
     }
     if (crossed > 0) {
         const Vec3 at = in_world(part, first->conflict);
-        context.warn(
-            "W-ORIENT",
-            fmt::format("orient: {} of part '{}' cannot be oriented, like a Moebius strip, and stayed "
-                        "as before; neighbours cannot be consistent at ({})",
-                        counted(crossed, "component"), part.name, readable(at, ", ")),
-            "cut it there, or use two-sided");
+        context.warn("W-ORIENT",
+                     fmt::format("orient: {} of part '{}' cannot be oriented, like a Moebius strip, and "
+                                 "stayed unchanged; neighbours cannot be consistent at ({})",
+                                 counted(crossed, "component"), part.name, readable(at, ", ")),
+                     "cut it there, or use two-sided");
     }
     if (undecided > 0)
-        context.warn(
-            "W-ORIENT-OPEN",
-            fmt::format("orient: {} of part '{}' without a side that is the outside: only made consistent",
-                        counted(undecided, "component"), part.name),
-            "method: flip reverses them");
+        context.warn("W-ORIENT-OPEN",
+                     fmt::format("orient: {} of part '{}' without a clear outside: only made consistent",
+                                 counted(undecided, "component"), part.name),
+                     "use method: flip to reverse them");
 }
 
 Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientReport& report) {

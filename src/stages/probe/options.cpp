@@ -83,38 +83,36 @@ std::vector<double> read(const std::string& file, std::size_t columns, Context& 
 
 void declare_probe(Declare<ProbeOptions>& d) {
     d.option("points", &ProbeOptions::points,
-             "The points to query: rows of x, y, z in world space, or a CSV file with such rows; columns "
-             "named x, y, z in its header are used, wherever they are. On the command line '0,0,0; 1,2,3'.")
+             "The points to query: rows of x, y, z in world space, or a CSV file with such rows. Columns may "
+             "have any order if a header names them x, y and z. On the command line: '0,0,0; 1,2,3'.")
         .primary();
     d.option("points_of", &ProbeOptions::points_of,
-             "Parts, by name or glob, whose vertices are the points; the other parts are the surface.");
+             "Parts, by name or glob, whose vertices are the points. The other parts are the surface.");
     d.option("segments", &ProbeOptions::segments,
-             "Rows of six numbers, from x, y, z to x, y, z, or a CSV file.");
+             "Rows of six numbers for the two ends (x, y, z, x, y, z), or a CSV file.");
     d.option("rays", &ProbeOptions::rays,
-             "Rows of six numbers, an origin x, y, z and a direction x, y, z, or a CSV file.");
+             "Rows of six numbers for origin and direction (x, y, z, x, y, z), or a CSV file.");
     d.option("along", &ProbeOptions::along,
-             "An attribute of three components: a ray is cast from every vertex along it. Where a part has "
-             "no NORMAL, the normals of the faces are used. The faces at the vertex are ignored.");
+             "An attribute with three components. A ray starts at every vertex in this direction. A part "
+             "without NORMAL uses the normals of its faces. The faces at the vertex are ignored.");
     d.option("reverse", &ProbeOptions::reverse,
-             "Reverses the rays of along; with NORMAL they run inward and measure the wall thickness.");
-    d.choice<ProbeOptions::Hits>(
-        "hits", &ProbeOptions::hits,
-        {{"all", ProbeOptions::Hits::all, "every face that a segment or ray hits, in order"},
-         {"first", ProbeOptions::Hits::first, "only the first one"}},
-        "Which hits of segments and rays are reported; along always reports the first.");
+             "Reverses the rays of along. With NORMAL, they run inward and measure the wall thickness.");
+    d.choice<ProbeOptions::Hits>("hits", &ProbeOptions::hits,
+                                 {{"all", ProbeOptions::Hits::all, "all hits of a segment or ray, in order"},
+                                  {"first", ProbeOptions::Hits::first, "only the first hit"}},
+                                 "The hits of segments and rays to report. along always reports the first.");
     d.option("face", &ProbeOptions::face,
-             "Tests segments and rays against this face only (a number; faces are numbered through all "
-             "parts). Each is classified as hit, parallel, in plane, outside segment or outside facet.")
+             "Tests segments and rays only against the face with this number, counted through all parts. "
+             "Each result is hit, parallel, in plane, outside segment or outside facet.")
         .at_least(0);
     d.option("tolerance", &ProbeOptions::tolerance,
-             "A point within this distance counts as on the surface (a length); 0: exactly on it.")
+             "Points within this distance count as on the surface. 0 means exactly on it.")
         .at_least(0);
     d.option("max_answers", &ProbeOptions::max_answers,
-             "The maximum number of answers in the report (a count); files contain all of them.")
+             "The maximum number of answers in the report. Files contain all answers.")
         .between(0, 1e6);
-    d.option(
-         "path", &ProbeOptions::path,
-         "The file to write all answers to, or a list of files, .csv or .json; - is JSON on standard output.")
+    d.option("path", &ProbeOptions::path,
+             "The .csv or .json file for all answers, or a list of files. - writes JSON to standard output.")
         .also_called(path_synonyms);
     d.exactly_one({"points", "points_of", "segments", "rays", "along"});
 }
@@ -133,13 +131,13 @@ void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems)
     for (const auto& path : o.path)
         if (path.text != "-" && !is_csv(path) && !path.text.ends_with(".json"))
             problems.add(given.mark, "E-FORMAT", fmt::format("probe cannot write '{}'", path.text),
-                         "a name that ends in .csv or .json");
+                         "use a name that ends in .csv or .json");
     if (given.find("reverse") && o.along.empty())
-        add_refusal(Refusal{"reverse", "'reverse' goes with along"}, "probe", given, problems);
+        add_refusal(Refusal{"reverse", "'reverse' needs along"}, "probe", given, problems);
     if (o.segments || o.rays) return;
     if (given.find("hits"))
-        add_refusal(Refusal{"hits", "'hits' goes with segments or rays"}, "probe", given, problems);
-    if (o.face) add_refusal(Refusal{"face", "'face' goes with segments or rays"}, "probe", given, problems);
+        add_refusal(Refusal{"hits", "'hits' needs segments or rays"}, "probe", given, problems);
+    if (o.face) add_refusal(Refusal{"face", "'face' needs segments or rays"}, "probe", given, problems);
 }
 
 } // namespace facetmill

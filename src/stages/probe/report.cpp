@@ -59,42 +59,44 @@ ProbedLine answer_of(const LineAnswers& answers, std::size_t i, const FaceNames&
 
 constexpr const char* points = "points are queried";
 constexpr const char* lines = "segments or rays are queried";
-constexpr const char* one_face = "they are tested against one face";
-constexpr const char* no_face = "the surface has no face";
+constexpr const char* one_face = "lines are tested against one face";
+constexpr const char* no_face = "the surface has no faces";
 
 void declare_hit(DeclareFields<ProbedHit>& d) {
-    d.field("t", &ProbedHit::t, "From 0 to 1 along a segment; the distance along a ray.");
+    d.field("t", &ProbedHit::t,
+            "The position on the line: 0 to 1 along a segment, the distance along a ray.");
     d.field("at", &ProbedHit::at, "Where.");
-    d.field("enters", &ProbedHit::enters, "Whether the line enters the solid there.");
-    d.field("part", &ProbedHit::part, "The part hit.");
+    d.field("enters", &ProbedHit::enters, "Whether the line enters the solid at this point.");
+    d.field("part", &ProbedHit::part, "The part that was hit.");
     d.field("face", &ProbedHit::face, "The number of the face in that part.");
 }
 
 void declare_in_plane(DeclareFields<ProbedLine::InPlane>& d) {
-    d.field("t", &ProbedLine::InPlane::t, "From 0 to 1 along a segment; the distance along a ray.");
+    d.field("t", &ProbedLine::InPlane::t,
+            "The position on the line: 0 to 1 along a segment, the distance along a ray.");
     d.field("at", &ProbedLine::InPlane::at, "Where.");
 }
 
 void declare_point_answer(DeclareFields<ProbeAnswer>& d) {
-    d.field("point", where_it_is(&ProbedPoint::point), "The point queried.").only_when(points);
+    d.field("point", where_it_is(&ProbedPoint::point), "The queried point.").only_when(points);
     d.choice("side", where_it_is(&ProbedPoint::side),
              {{"inside", Side::inside, "the winding number is not 0"},
-              {"outside", Side::outside, "it is 0"},
+              {"outside", Side::outside, "the winding number is 0"},
               {"on", Side::on, "the point is on the surface"},
               {"unknown", Side::unknown, "the surface is open"}},
-             "Its position.")
+             "The side of the surface that contains the point.")
         .only_when(points);
     d.field("winding", where_it_is(&ProbedPoint::winding),
-            "The winding number of the surface around it; 0 on the surface.")
+            "The winding number of the surface around the point. 0 if the point is on the surface.")
         .only_when(points);
     d.field("distance", where_it_is(&ProbedPoint::distance), "The distance to the surface.")
         .unit("scene units")
         .only_when(points)
         .null_when(no_face);
-    d.field("closest", where_it_is(&ProbedPoint::closest), "The closest point of the surface.")
+    d.field("closest", where_it_is(&ProbedPoint::closest), "The closest point on the surface.")
         .only_when(points)
         .null_when(no_face);
-    d.field("part", where_it_is(&ProbedPoint::part), "The part that it is on.")
+    d.field("part", where_it_is(&ProbedPoint::part), "The part with the closest point.")
         .only_when(points)
         .null_when(no_face);
     d.field("face", where_it_is(&ProbedPoint::face), "The number of the face in that part.")
@@ -115,19 +117,19 @@ void declare_answer(DeclareFields<ProbeAnswer>& d) {
     };
     d.field("direction", direction, "The direction of a ray.").only_when("rays are queried");
     d.field("to", to, "The end of a segment.").only_when("segments are queried");
-    d.list("hits", where_it_is(&ProbedLine::hits), "The faces that it hits, in order.", declare_hit)
-        .only_when(lines);
+    d.list("hits", where_it_is(&ProbedLine::hits), "The hit faces, in order.", declare_hit).only_when(lines);
     const auto meeting = [](const ProbeAnswer& a) {
         const auto* line = std::get_if<ProbedLine>(&a);
         return line ? line->meeting : std::nullopt;
     };
-    d.field("meeting", meeting, "How it intersects the face.").only_when(one_face);
+    d.field("meeting", meeting, "The relation of the line to the face.").only_when(one_face);
     const auto plane = [](const ProbeAnswer& a) {
         const auto* line = std::get_if<ProbedLine>(&a);
         return line ? line->plane : std::nullopt;
     };
-    d.object("plane", plane, "Where it intersects the plane of the face.", declare_in_plane)
-        .only_when("they are tested against one face, and neither parallel to its plane nor in it");
+    d.object("plane", plane, "The intersection with the plane of the face.", declare_in_plane)
+        .only_when(
+            "lines are tested against one face, and the line is neither parallel to its plane nor in it");
 }
 
 // --- lines for the terminal
@@ -180,16 +182,16 @@ std::vector<std::string> lines_of(const ProbeReport& report) {
 } // namespace
 
 void declare_probe_report(DeclareFields<ProbeReport>& d) {
-    d.field("count", &ProbeReport::count, "The number of points or lines queried.");
+    d.field("count", &ProbeReport::count, "The number of queried points or lines.");
     for (const Side side : {Side::inside, Side::outside, Side::on, Side::unknown}) {
         const auto count = [side](const ProbeReport& r) {
             return r.sides ? std::optional((*r.sides)[static_cast<std::size_t>(side)]) : std::nullopt;
         };
-        d.field(to_string(side), count, "Points there.").only_when(points);
+        d.field(to_string(side), count, "Points at this side of the surface.").only_when(points);
     }
     d.field("hit", &ProbeReport::hit, "Lines that hit a face.").only_when(lines);
     d.field("missed", &ProbeReport::missed, "Lines that hit no face.").only_when(lines);
-    d.field("hits", &ProbeReport::hits, "Hits of all lines.").only_when(lines);
+    d.field("hits", &ProbeReport::hits, "The hits of all lines.").only_when(lines);
     std::vector<std::string> meetings;
     for (const Meeting m : {Meeting::hit, Meeting::parallel, Meeting::in_plane, Meeting::outside_segment,
                             Meeting::outside_facet})
@@ -197,11 +199,10 @@ void declare_probe_report(DeclareFields<ProbeReport>& d) {
     d.counts("meetings", &ProbeReport::meetings, meetings,
              "The number of lines for each relation to the face.")
         .only_when(one_face);
-    d.object("distance", &ProbeReport::distance, "Of all points to the surface.",
+    d.object("distance", &ProbeReport::distance, "Distances of all points to the surface.",
              statistics_fields("scene units"))
         .only_when(points);
-    d.list("answers", &ProbeReport::answers, "The first answers, at most max_answers of them.",
-           declare_answer);
+    d.list("answers", &ProbeReport::answers, "The first answers, up to max_answers.", declare_answer);
     d.tell(lines_of);
 }
 

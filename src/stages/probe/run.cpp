@@ -33,8 +33,9 @@ Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context&
         throw Error(ErrorKind::usage, "E-PART", "'points_of' names no part of the scene",
                     "facetmill info lists them");
     if (q.surface.empty() && !q.sources.empty())
-        throw Error(ErrorKind::usage, "E-PART", "'points_of' leaves no part as the surface",
-                    "the other parts are the surface: load one, or name fewer");
+        throw Error(ErrorKind::usage, "E-PART",
+                    "'points_of' selects all parts, so no part is left as the surface",
+                    "load another part as the surface, or select fewer parts");
     return q;
 }
 
@@ -63,7 +64,7 @@ std::vector<Line> lines_asked(const ProbeOptions& o, Context& context) {
         const Vec3 from{r[0], r[1], r[2]}, to{r[3], r[4], r[5]};
         if (rays && to == Vec3{})
             throw Error(ErrorKind::usage, "E-RAY", fmt::format("ray {} has no direction", lines.size()),
-                        "a ray has an origin and a direction; use segments to go from point to point");
+                        "give the ray an origin and a direction; use segments to go from point to point");
         lines.push_back({from, rays ? from + to : to, rays});
     }
     return lines;
@@ -139,8 +140,8 @@ std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
         return corners;
     }
     throw Error(ErrorKind::usage, "E-FACE",
-                fmt::format("there is no face {}; the last one is {}", number, number - left - 1),
-                "faces are numbered from 0");
+                fmt::format("face {} does not exist; the last face is {}", number, number - left - 1),
+                fmt::format("give a number from 0 to {}", number - left - 1));
 }
 
 ProbeReport answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions& o, const Questions& q,
@@ -222,6 +223,7 @@ const RegisterStage registered =
                                          "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
                                          "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
                             .tells = true,
+                            .keeps_scene = true,
                             .leaves_points = true,
                             .crossing_faces = CrossingFacePolicy::name},
                            declare_probe, declare_probe_report);

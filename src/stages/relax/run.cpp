@@ -22,38 +22,38 @@ struct RelaxReport {
 };
 
 void declare_size(DeclareFields<SurfaceSize>& d) {
-    d.field("area", &SurfaceSize::area, "Of the surface.").unit("square scene units");
-    d.field("volume", &SurfaceSize::volume, "Of the inside.")
+    d.field("area", &SurfaceSize::area, "The area of the surface.").unit("square scene units");
+    d.field("volume", &SurfaceSize::volume, "The volume of the inside.")
         .unit("cubic scene units")
         .null_when("the surface is not closed");
 }
 
 void declare_part(DeclareFields<RelaxedPart>& d) {
-    d.field("part", &RelaxedPart::part, "Its name.");
+    d.field("part", &RelaxedPart::part, "The name of the part.");
     d.field("iterations", &RelaxedPart::iterations, "The number of iterations.");
     d.field("moved_vertices", &RelaxedPart::moved, "Vertices that moved.");
     d.field(
         "held_vertices", &RelaxedPart::held,
-        "Vertices that were held: on the boundary, on caps, at corners of feature lines, outside the mask.");
+        "Vertices that did not move because of the boundary, caps, corners of feature lines or the mask.");
     d.field("largest_move", &RelaxedPart::largest_move,
             "The largest distance of a vertex from its original position.")
         .unit("scene units");
-    d.object("before", &RelaxedPart::before, "The size of the surface that entered.", declare_size);
-    d.object("after", &RelaxedPart::after, "The size of the surface that left.", declare_size);
+    d.object("before", &RelaxedPart::before, "The size of the surface before.", declare_size);
+    d.object("after", &RelaxedPart::after, "The size of the surface after.", declare_size);
     const auto last = [](const RelaxedPart& p) {
         return p.until ? std::optional(p.last_move) : std::nullopt;
     };
-    d.field("last_move", last, "The largest move in the last iteration that was tried.")
+    d.field("last_move", last, "The largest movement in the last iteration.")
         .unit("scene units")
         .only_when("until is given");
     const auto settled = [](const RelaxedPart& p) {
         return p.until ? std::optional(p.settled) : std::nullopt;
     };
-    d.field("settled", settled, "Whether until was reached.").only_when("until is given");
+    d.field("settled", settled, "Whether relaxation reached until.").only_when("until is given");
 }
 
 void declare_report(DeclareFields<RelaxReport>& d) {
-    d.list("parts", &RelaxReport::parts, "Each part that was relaxed.", declare_part);
+    d.list("parts", &RelaxReport::parts, "Each relaxed part.", declare_part);
 }
 
 Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) {
@@ -79,7 +79,7 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
                             "area was lost; the next would have moved a vertex by {:.4g}, more than until "
                             "{:.4g}",
                             part.name, r.iterations, r.last_move, settings.until),
-                "use method: hc or taubin, which keep the volume, or give iterations without until");
+                "use method: hc or taubin, which preserve the volume, or give iterations without until");
         else if (o.until && !r.settled && r.iterations > 0)
             context.warn("W-RELAX-STOPPED",
                          fmt::format("part '{}' did not converge: the last of {} iterations moved a vertex "

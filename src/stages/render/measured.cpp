@@ -48,16 +48,16 @@ Part faces_of(const Part& part) {
 [[noreturn]] void refuse(const std::string& asked, std::vector<std::string> known, const Mark& where) {
     const std::vector<std::string> own = known, words = quantity_words();
     known.insert(known.end(), words.begin(), words.end());
-    const std::string lists = fmt::format(
-        "{}measured are {}",
-        own.empty() ? "the scene has none; " : fmt::format("the scene has {}; ", fmt::join(own, ", ")),
-        fmt::join(quantity_names(), ", "));
-    throw Error(
-        ErrorKind::stage, "E-ATTRIBUTE",
-        fmt::format("render: no part has an attribute '{}', and none of that name is measured", asked),
-        asked == "failed" ? "validate: {mark: failed.ply} writes a copy of what fails, which has it"
-                          : did_you_mean(asked, known, lists),
-        where);
+    const std::string lists =
+        fmt::format("{}render can measure {}",
+                    own.empty() ? "the scene has no attributes; "
+                                : fmt::format("the scene has {}; ", fmt::join(own, ", ")),
+                    fmt::join(quantity_names(), ", "));
+    throw Error(ErrorKind::stage, "E-ATTRIBUTE",
+                fmt::format("render: no part has an attribute '{}', and it cannot be measured", asked),
+                asked == "failed" ? "use validate: {mark: failed.ply} to write a copy with this attribute"
+                                  : did_you_mean(asked, known, lists),
+                where);
 }
 
 } // namespace
@@ -88,7 +88,7 @@ std::string unit_of_legend(const RenderOptions& o, const Quantity* quantity, Uni
     throw Error(ErrorKind::usage, "E-UNIT",
                 fmt::format("render: {} is measured in {}, not in {}", quantity->name,
                             own.empty() ? "no unit" : own, o.unit),
-                is_length ? "transform: {unit: mm} before it converts the scene" : "leave unit out",
+                is_length ? "use transform: {unit: mm} first to convert the scene" : "remove unit",
                 context.where());
 }
 

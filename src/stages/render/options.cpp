@@ -21,12 +21,12 @@ using Ground = RenderOptions::Ground;
 const std::vector<NamedChoice<Viewpoint>>& viewpoints() {
     static const std::vector<NamedChoice<Viewpoint>> all{
         {"corner", Viewpoint::corner, "from the front, slightly from above and from the right"},
-        {"front", Viewpoint::front, "along -z where y points up, along +y where z does"},
+        {"front", Viewpoint::front, "along -z if y points up, along +y if z points up"},
         {"back", Viewpoint::back, "from behind"},
         {"left", Viewpoint::left, "from the left of the front"},
         {"right", Viewpoint::right, "from the right of the front"},
-        {"top", Viewpoint::top, "from above, the front at the bottom"},
-        {"bottom", Viewpoint::bottom, "from below, the front at the top"}};
+        {"top", Viewpoint::top, "from above, with the front at the bottom"},
+        {"bottom", Viewpoint::bottom, "from below, with the front at the top"}};
     return all;
 }
 
@@ -114,82 +114,78 @@ Json OptionType<ColourRange>::schema() {
 }
 
 void declare_render(Declare<RenderOptions>& d) {
-    d.option("path", &RenderOptions::path, "The PNG file to write; - is standard output.")
+    d.option("path", &RenderOptions::path, "The PNG file to write. - writes to standard output.")
         .also_called(path_synonyms)
         .required()
         .primary();
     d.option("with", &RenderOptions::with,
-             "Another mesh file, drawn to the right of the scene by the same camera, at the same scale and "
-             "with the "
-             "same colours for numbers; width and height apply to one of the two.")
+             "Another mesh file to draw to the right of the scene, with the same camera, scale and colour "
+             "scale. width and height apply to each of the two.")
         .also_called(with_synonyms);
-    d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "Where the scene is seen from.")
+    d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "The viewpoint.")
         .also_called("camera direction");
     d.option("views", &RenderOptions::views,
-             "Several views in one image, four in a row, at one scale; turntable is eight around the scene. "
-             "width and height apply to one view.");
+             "Several views in one image, four in a row, at the same scale. turntable means eight views "
+             "around the scene. width and height apply to each view.");
     d.option("from", &RenderOptions::from,
              "The direction towards the viewer in world space, instead of view.");
     d.option("perspective", &RenderOptions::perspective,
-             "The angle of view over the scene. Default: parallel projection.")
+             "The angle of view over the whole scene. Default: parallel projection.")
         .between(1, 120);
-    d.option("at", &RenderOptions::at,
-             "The position in world space at the centre of the image, which is magnified.");
-    d.option("zoom", &RenderOptions::zoom, "The magnification of the centre. Default with at: 4.")
-        .between(1, 10000);
-    d.option("width", &RenderOptions::width, "Pixels (a count).").between(1, 8192);
-    d.option("height", &RenderOptions::height, "Pixels (a count).").between(1, 8192);
-    d.choice<Look>("shading", &RenderOptions::shading,
-                   {{"sides", Look::sides,
-                     "both sides are lit; inner sides are orange, except with double-sided materials"},
-                    {"one-sided", Look::one_sided, "the usual shading: reversed faces are dark"},
-                    {"absolute", Look::absolute, "by absolute value: the back is shaded like the front"},
-                    {"beside", Look::beside, "two images: one-sided, and absolute to the right of it"}},
-                   "How the angle between a face's normal and the light is used.");
+    d.option("at", &RenderOptions::at, "The world position at the centre of the image, which is magnified.");
+    d.option("zoom", &RenderOptions::zoom, "The magnification. Default: 1, or 4 with at.").between(1, 10000);
+    d.option("width", &RenderOptions::width, "The size in pixels.").between(1, 8192);
+    d.option("height", &RenderOptions::height, "The size in pixels.").between(1, 8192);
+    d.choice<Look>(
+        "shading", &RenderOptions::shading,
+        {{"sides", Look::sides,
+          "light both sides; inner sides are orange, except for double-sided materials"},
+         {"one-sided", Look::one_sided, "use the cosine: reversed faces are dark"},
+         {"absolute", Look::absolute, "use the absolute value: the back is shaded like the front"},
+         {"beside", Look::beside, "show two images: one-sided on the left, absolute on the right"}},
+        "How the angle between a face normal and the light affects brightness.");
     d.choice<ShadingNormals>(
         "normals", &RenderOptions::normals,
-        {{"auto", ShadingNormals::automatic, "those of the mesh where it has some, else flat"},
-         {"flat", ShadingNormals::flat, "one for each face"},
+        {{"auto", ShadingNormals::automatic, "the normals of the mesh if it has any, otherwise flat"},
+         {"flat", ShadingNormals::flat, "one normal for each face"},
          {"smooth", ShadingNormals::smooth,
-          "those of the mesh, else new ones, with edges where faces meet at more than 40 degrees"}},
-        "Which normals are used.");
+          "the normals of the mesh, otherwise computed ones, with edges where faces meet at more than 40 "
+          "degrees"}},
+        "The normals for shading.");
     d.option("occlusion", &RenderOptions::occlusion,
-             "Whether folds and corners, which receive less ambient light, are darker.");
-    d.option("silhouettes", &RenderOptions::silhouettes, "Whether outlines are drawn.");
-    d.choice<Paint>(
-         "colours", &RenderOptions::colours,
-         {{"material", Paint::material,
-           "the base colour multiplied by its texture and the colours of vertices and faces, with the "
-           "material's normal, emissive and occlusion textures and its alpha"},
-          {"part", Paint::part, "one colour for each part"},
-          {"normal", Paint::normal, "the normal of the face, with x, y, z as red, green, blue"},
-          {"plain", Paint::plain, "grey"}},
-         "How faces are coloured.")
+             "Darkens folds and corners, which receive less ambient light.");
+    d.option("silhouettes", &RenderOptions::silhouettes, "Draws outlines.");
+    d.choice<Paint>("colours", &RenderOptions::colours,
+                    {{"material", Paint::material,
+                      "the base colour multiplied by its texture and by vertex and face colours, with the "
+                      "material's normal, emissive and occlusion textures and alpha"},
+                     {"part", Paint::part, "one colour for each part"},
+                     {"normal", Paint::normal, "the face normal, with x, y, z as red, green, blue"},
+                     {"plain", Paint::plain, "grey"}},
+                    "How to colour faces.")
         .also_called("colors color_by");
     d.option("attribute", &RenderOptions::attribute,
-             fmt::format("Colours by this attribute where a part has it: identifiers (group, failed, cut_id) "
-                         "get distinct colours, other numbers a scale from dark blue over green to yellow "
-                         "(viridis). What no part has is measured: {}.",
+             fmt::format("Colours faces by this attribute. Identifiers (group, failed, cut_id) get distinct "
+                         "colours. Other numbers use a scale from dark blue over green to yellow (viridis). "
+                         "If no part has the attribute, these are measured: {}.",
                          fmt::join(quantity_names(), ", ")))
         .also_called(attribute_synonyms);
     d.option("range", &RenderOptions::range,
-             "The numbers at the ends of the scale: auto (the smallest and largest, or, if few outliers "
-             "take up more than half of that, the 1st and 99th percentile), percentile, all (the "
-             "smallest and largest), or two numbers.");
-    d.option(
-        "legend", &RenderOptions::legend,
-        "Whether the scale is drawn beside the scene, with numbers. It is left out where it would take more "
-        "than half of the width, or does not fit into the height.");
-    d.option(
-         "unit", &RenderOptions::unit,
-         "The unit of the attribute, for the legend. Of what is measured it is known, if that of the scene "
-         "is.")
+             "The values at the ends of the colour scale. all uses the smallest and the largest value, "
+             "percentile the 1st and 99th percentile. auto uses percentile if a few outliers take up more "
+             "than half of the range, otherwise all. Or give two numbers.");
+    d.option("legend", &RenderOptions::legend,
+             "Draws the colour scale with numbers next to the scene. It is omitted if it would take more "
+             "than half of the width, or does not fit into the height.");
+    d.option("unit", &RenderOptions::unit,
+             "The unit of the attribute, for the legend. For measured attributes it follows from the scene's "
+             "unit.")
         .also_called(property_named("unit")->also_called);
     d.choice<EdgeLines>("edges", &RenderOptions::edges,
                         {{"few", EdgeLines::few, "if the scene has at most 6000 faces"},
                          {"all", EdgeLines::all, "always"},
                          {"no", EdgeLines::no, "never"}},
-                        "Whether the edges of faces are drawn.");
+                        "Draws the edges of faces.");
     d.choice<Ground>("background", &RenderOptions::ground,
                      {{"none", Ground::none, "transparent"},
                       {"white", Ground::white, "white"},
@@ -199,8 +195,7 @@ void declare_render(Declare<RenderOptions>& d) {
                       {"black", Ground::black, "black"}},
                      "The background of the image.")
         .also_called("bg");
-    d.option("point", &RenderOptions::point,
-             "The side of the squares drawn for the vertices of parts without faces, in pixels.")
+    d.option("point", &RenderOptions::point, "The side of the squares for points of point clouds, in pixels.")
         .between(0.5, 100)
         .measures(Dimension::none);
     d.at_most_one({"view", "views", "from"});
@@ -216,15 +211,15 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
                      "for example render: view.png");
     if (o.from && !(largest_component(*o.from) > 0))
         problems.add(mark_at(given, "from"), "E-DIRECTION", "render: 'from' needs a direction, found 0 0 0",
-                     "for example from: [1, -2, 1]");
+                     "give a direction: from: [1, -2, 1]");
     for (const auto& view : o.views)
         if (view != turntable && !viewpoint_named(view)) {
             std::vector<std::string> names{turntable};
             for (const auto& v : viewpoints()) names.push_back(v.name);
             const std::string near = nearest(view, names);
             problems.add(mark_at(given, "views"), "E-CHOICE",
-                         fmt::format("render: there is no view '{}'", view),
-                         near.empty() ? fmt::format("one of {}", fmt::join(names, ", "))
+                         fmt::format("render: view '{}' does not exist", view),
+                         near.empty() ? fmt::format("use one of {}", fmt::join(names, ", "))
                                       : fmt::format("did you mean '{}'?", near));
         }
     const auto [count, columns] = count_and_columns(o);
@@ -235,7 +230,7 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
         problems.add(mark_at(given, "views"), "E-RANGE",
                      fmt::format("render: {} views of {} x {} pixels are more than 8192 x 8192", count,
                                  o.width, o.height),
-                     "make width and height smaller: they are those of one view");
+                     "reduce width and height, which apply to each view");
 }
 
 PictureSettings common_settings(const RenderOptions& o, const Scene& scene, const Context& context) {

@@ -133,8 +133,8 @@ void warn_of_crowd(const Scene& scene, const PictureSettings& settings, Context&
     if (!crowd) return;
     const Vec3& p = crowd->middle;
     context.warn("W-FAR", "render: " + crowd_in_words(*crowd),
-                 fmt::format("render: {{path: near.png, at: [{}], zoom: {}}} shows it; clean: "
-                             "{{components: {{keep: 1}}}} leaves out what does not hang together with it",
+                 fmt::format("use render: {{path: near.png, at: [{}], zoom: {}}} to see it, or clean: "
+                             "{{components: {{keep: 1}}}} to keep only the largest component",
                              readable(p, ", "), crowd->zoom));
 }
 
@@ -177,26 +177,26 @@ struct RenderReport {
 };
 
 void declare_report(DeclareFields<RenderReport>& d) {
-    d.field("path", &RenderReport::path, "The path of the file, as given.");
-    d.field("width", &RenderReport::width, "Of the image.").unit("pixels");
-    d.field("height", &RenderReport::height, "Of the image.").unit("pixels");
-    d.field("faces", &RenderReport::faces, "Faces of the parts that were drawn.");
+    d.field("path", &RenderReport::path, "The path of the file, as you gave it.");
+    d.field("width", &RenderReport::width, "The size of the image.").unit("pixels");
+    d.field("height", &RenderReport::height, "The size of the image.").unit("pixels");
+    d.field("faces", &RenderReport::faces, "Faces of the drawn parts.");
     d.field("pixels_per_unit", &RenderReport::scale,
-            "Pixels per scene unit; 0 when what is seen has no extent.");
+            "Pixels per scene unit. 0 if the drawn scene has no extent.");
     d.field("range", &RenderReport::painted,
-            "The values of the attribute at the ends of the scale: blue and yellow, or blue and red.")
+            "The attribute values at the ends of the scale: blue and yellow, or blue and red.")
         .only_when("an attribute with different values was drawn");
     d.field("all_values", &RenderReport::all, "The smallest and the largest value of the attribute.")
         .only_when("an attribute with different values was drawn");
     d.field("percentiles", &RenderReport::percentiles,
-            "Whether range is from the 1st to the 99th percentile, or, where it is as wide on either side of "
-            "0, to the 99th of the amounts.");
-    d.field("attribute", &RenderReport::attribute, "The attribute that was drawn; empty: none.");
+            "Whether range uses the 1st to the 99th percentile. If range is symmetric around 0, it uses the "
+            "99th percentile of the absolute values.");
+    d.field("attribute", &RenderReport::attribute, "The attribute that was drawn. Empty if none was drawn.");
     d.field("measured", &RenderReport::measured,
-            "Whether render measured the attribute, which the scene has not.");
+            "Whether render measured the attribute because the scene does not have it.");
     d.field(
         "missing", [](const RenderReport& r) { return r.values.missing; },
-        "Faces or vertices without a value, which are pink.");
+        "Faces or vertices without a value. They are pink.");
     d.tell([](const RenderReport& r) {
         std::string line = fmt::format("{}: {} x {} pixels", r.path, r.width, r.height);
         if (r.scale > 0) line += fmt::format(", {:.6g} a unit", r.scale);
@@ -217,12 +217,20 @@ void declare_report(DeclareFields<RenderReport>& d) {
 void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context& context) {
     if (!quantity || picture.range.known || picture.range.missing == 0) return;
     context.warn("W-NO-VALUE",
-                 fmt::format("render: {} has no value anywhere: there is none {}", quantity->name,
+                 fmt::format("render: {} has no value anywhere: it has none {}", quantity->name,
                              quantity->missing.empty() ? "without faces" : quantity->missing),
-                 "facetmill info tells whether the surface is closed and manifold");
+                 "use thicken to give a sheet walls; clean: {holes: minimal}, then orient, mend a solid");
+}
+
+void warn_of_nothing(const Scene& scene, Context& context) {
+    const auto drawn = [](const Part& part) { return part.mesh.vertex_count() > 0; };
+    if (std::none_of(scene.parts.begin(), scene.parts.end(), drawn))
+        context.warn("W-BLANK", "render: the scene has nothing to draw, so the picture is blank",
+                     "use the common key when: {vertices: {min: 1}} to skip the picture");
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
+    warn_of_nothing(scene, context);
     ProgressSteps steps({9, 1});
     const Subject subject = subject_of(o, scene, context);
     const Picture picture = taken(o, scene, subject, context);
@@ -265,6 +273,7 @@ const RegisterStage registered = make_stage<RenderStage>(
                   "render: {path: curvature.png, attribute: mean_curvature, range: [-1, 1]}",
                   "render: {path: deviation.png, attribute: deviation}"},
      .tells = true,
+     .keeps_scene = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes unchanged, so a comparison is pointless
      .crossing_faces = CrossingFacePolicy::name},

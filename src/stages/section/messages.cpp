@@ -3,9 +3,11 @@
 namespace facetmill {
 
 const RegisterMessages section_messages{
-    {"W-OPEN-SECTION", "A section has open contours, because the mesh is open where the plane cuts it.",
-     "Close holes with `clean`. A surface without an inside, such as a terrain, has open lines as its "
-     "section, and they have no area."},
+    {"W-OPEN-SECTION",
+     "A section has open contours because the mesh is open where the plane cuts it. Or the mesh is open, and "
+     "closed contours run clockwise, for example around the pits of a terrain.",
+     "A terrain or a sheet has no inside and no area, so use only its lines, or make it a solid with "
+     "`thicken`. Close the holes of a solid with `clean: {holes: minimal}`."},
     {"W-SECTION-CROSSES",
      "Contours of a section intersect themselves. Every region that they wind around, in either direction, "
      "counts as inside.",

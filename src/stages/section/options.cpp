@@ -17,16 +17,17 @@ void declare_hatch(Declare<HatchOption>& d) {
         .above(0)
         .primary();
     d.option("angle", &HatchOption::angle, "The angle from the frame's u axis to the lines, anticlockwise.");
-    d.choice<polygon::Keep>("keep", &HatchOption::keep,
-                            {{"inside", polygon::Keep::inside, "hatch the material"},
-                             {"outside", polygon::Keep::outside, "hatch around it, within its bounds"}},
-                            "Which parts of the lines are kept.");
+    d.choice<polygon::Keep>(
+        "keep", &HatchOption::keep,
+        {{"inside", polygon::Keep::inside, "the area inside the section"},
+         {"outside", polygon::Keep::outside, "the area around the section, within its bounds"}},
+        "The area to hatch.");
 }
 
 } // namespace
 
 void declare_section(Declare<SectionOptions>& d) {
-    d.group("plane", &SectionOptions::plane, "The plane, or the first of a stack; z=50% unless given.",
+    d.group("plane", &SectionOptions::plane, "The plane, or the first plane of a stack. Default: z=50%.",
             declare_plane)
         .also_called(plane_synonyms, plane_is)
         .primary();
@@ -35,16 +36,16 @@ void declare_section(Declare<SectionOptions>& d) {
         .also_called("layer_height layer step distance interval")
         .above(0);
     d.option("count", &SectionOptions::count,
-             "The number of planes: with spacing, starting at the plane; without it, in the middle of this "
-             "many equal slices of the extent.")
+             "The number of planes. With spacing, the stack starts at the plane. Without spacing, the extent "
+             "is divided into this many equal slices, with a plane in the middle of each.")
         .also_called("slices number layers")
         .between(1, max_planes);
-    d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections: true, or how.",
-            declare_hatch)
+    d.group("hatch", &SectionOptions::hatch,
+            "Hatches the sections with parallel lines. Give true, or a map of options.", declare_hatch)
         .option()
         .may_be_true = true;
     d.option("path", &SectionOptions::path,
-             "The drawing to write, to scale, or a list of drawings; the suffix decides the format: .svg, "
+             "The drawing to write, to scale, or a list of drawings. The suffix selects the format: .svg, "
              ".dxf or .json.")
         .also_called(path_synonyms);
 }
@@ -54,15 +55,15 @@ void verify_section(const SectionOptions& o, const Value& given, Problems& probl
     for (const auto& path : o.path)
         if (!io::is_drawing(path.text))
             problems.add(mark_at(given, "path"), "E-DRAWING",
-                         fmt::format("section: drawings are not written as '{}'", path.text),
-                         "the formats are .svg, .dxf and .json");
+                         fmt::format("section: '{}' is not a supported drawing format", path.text),
+                         "use .svg, .dxf or .json");
 }
 
 polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context) {
     const double spacing = context.resolve(option.spacing, scene, "hatch.spacing");
     if (!(spacing > 0))
-        throw Error(ErrorKind::stage, "E-HATCH", "the spacing of 'hatch' comes to 0 in this scene",
-                    "its bounding box has no extent: give a length in scene units");
+        throw Error(ErrorKind::stage, "E-HATCH", "the spacing of 'hatch' is 0 in this scene",
+                    "the bounding box has no extent: give a length in scene units");
     return {.spacing = spacing,
             .direction = {cosine(option.angle.radians), sine(option.angle.radians)},
             .keep = option.keep};

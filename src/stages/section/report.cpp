@@ -48,28 +48,38 @@ void add_volume(SectionReport& report, double spacing, std::optional<double> vol
     if (volume && *volume != 0) report.ratio = *report.area_times_spacing / *volume;
 }
 
-void warn(const SectionReport& report, Context& context) {
+constexpr const char* hint_for_open = "take the lines alone of a terrain or a sheet, which has no inside, or "
+                                      "make it a solid with thicken; close the "
+                                      "holes of a solid with clean: {holes: minimal}";
+
+/// In an open surface, a clockwise outline may be a pit of a terrain.
+void warn_of_clockwise(const SectionReport& report, bool closed, Context& context) {
+    const bool one = report.inside_out == 1;
+    const std::string outlines = counted(report.inside_out, "outline");
+    const char* runs =
+        one ? "runs clockwise, so its area is negative" : "run clockwise, so their areas are negative";
+    if (closed)
+        context.warn("W-INSIDE-OUT",
+                     fmt::format("{} {}: the mesh is inside out where the plane cuts it", outlines, runs),
+                     "use orient first");
+    else if (report.open == 0)
+        context.warn("W-OPEN-SECTION",
+                     fmt::format("{} {}: the mesh is open, so the area may mean nothing", outlines, runs),
+                     hint_for_open);
+}
+
+void warn(const SectionReport& report, const std::function<bool()>& is_closed, Context& context) {
     if (report.open > 0)
-        context.warn(
-            "W-OPEN-SECTION",
-            fmt::format("{} of {} open: the mesh has a boundary where the plane cuts it", report.open,
-                        counted(report.contours, "contour")),
-            report.open == report.contours
-                ? "of a surface without an inside (a terrain, a sheet) these lines are the section, and "
-                  "have no area; thicken makes a solid of it, clean welds a mesh or fills its holes"
-                : "use clean first, to weld the mesh or fill its holes");
+        context.warn("W-OPEN-SECTION",
+                     fmt::format("{} of {} open: the mesh has a boundary where the plane cuts it",
+                                 report.open, counted(report.contours, "contour")),
+                     hint_for_open);
     if (!report.oriented)
         context.warn("W-UNORIENTED",
                      "neighbouring faces are inconsistent, so nesting decided which contours are outlines "
                      "and which are holes",
                      "use orient first");
-    if (report.inside_out > 0)
-        context.warn("W-INSIDE-OUT",
-                     fmt::format("{} {}: the mesh is inside out where the plane cuts it",
-                                 counted(report.inside_out, "outline"),
-                                 report.inside_out == 1 ? "runs clockwise, so its area is negative"
-                                                        : "run clockwise, so their areas are negative"),
-                     "use orient first");
+    if (report.inside_out > 0) warn_of_clockwise(report, report.open == 0 && is_closed(), context);
     const auto crossed = report.kinds[static_cast<std::size_t>(polygon::Kind::self_intersecting)];
     if (crossed > 0)
         context.warn("W-SECTION-CROSSES",
@@ -86,7 +96,7 @@ void declare_kinds(DeclareFields<SectionReport>& d) {
         d.field(
             polygon::to_string(static_cast<polygon::Kind>(k)),
             [k](const SectionReport& r) { return r.kinds[static_cast<std::size_t>(k)]; },
-            "Contours of this kind.");
+            "The number of contours of this kind.");
 }
 
 void declare_part(DeclareFields<std::reference_wrapper<const io::DrawnPart>>& d) {
@@ -96,13 +106,13 @@ void declare_part(DeclareFields<std::reference_wrapper<const io::DrawnPart>>& d)
 }
 
 void declare_sheet(DeclareFields<ReportedSection>& d) {
-    d.field("height", &ReportedSection::height, "From the first plane, along the normal.")
+    d.field("height", &ReportedSection::height, "The distance from the first plane, along the normal.")
         .unit("scene units");
-    d.field("origin", &ReportedSection::origin, "Of the plane's frame, in the world.");
-    d.field("area", &ReportedSection::area, "Of all parts.").unit("square scene units");
-    d.field("contours", &ReportedSection::contours, "Of all parts.");
+    d.field("origin", &ReportedSection::origin, "The origin of the plane's frame, in world space.");
+    d.field("area", &ReportedSection::area, "The area of all parts.").unit("square scene units");
+    d.field("contours", &ReportedSection::contours, "The area of all parts.");
     d.list("parts", &ReportedSection::parts, "The sections of single parts.", declare_part)
-        .only_when("it has contours and is among the first 200 of all");
+        .only_when("the plane has contours and is among the first 200 planes");
 }
 
 std::optional<SectionFrame> first_frame(const SectionReport& r) {
@@ -148,35 +158,38 @@ std::vector<std::string> lines_of(const SectionReport& r) {
 void declare_section_report(DeclareFields<SectionReport>& d) {
     d.field(
         "planes", [](const SectionReport& r) { return r.sections.size(); }, "The number of planes.");
-    d.field("empty", &SectionReport::empty, "Planes that intersect nothing.");
-    d.field("contours", &SectionReport::contours, "Contours of all planes.");
-    d.field("holes", &SectionReport::holes, "Those that are holes.");
-    d.field("open", &SectionReport::open, "Those that are not closed.");
+    d.field("empty", &SectionReport::empty, "Planes that do not intersect the scene.");
+    d.field("contours", &SectionReport::contours, "Contours in all planes.");
+    d.field("holes", &SectionReport::holes, "Contours that are holes.");
+    d.field("open", &SectionReport::open, "Contours that are not closed.");
     d.field("touched", &SectionReport::touched,
-            "Contours reduced to a point or a line, where the plane only touches the mesh.");
+            "Contours that are only a point or a line, where the plane touches the mesh.");
     const auto self = [](const SectionReport& r) -> const SectionReport& { return r; };
-    d.object("kinds", self, "Closed contours by kind.", declare_kinds);
-    d.field("area", &SectionReport::area, "Of all planes, with holes subtracted.").unit("square scene units");
-    d.object("frame", first_frame, "Of the first plane.", io::declare_frame_fields)
-        .only_when("there is a plane");
+    d.object("kinds", self, "Closed contours, counted by kind.", declare_kinds);
+    d.field("area", &SectionReport::area, "The area in all planes, with holes subtracted.")
+        .unit("square scene units");
+    d.object("frame", first_frame, "The area in the first plane.", io::declare_frame_fields)
+        .only_when("the section has a plane");
     d.list("sections", &SectionReport::sections, "The section of each plane.", declare_sheet);
     d.field("spacing", &SectionReport::spacing, "The distance between the planes.")
         .unit("scene units")
         .only_when(stack);
-    d.field("area_times_spacing", &SectionReport::area_times_spacing, "An estimate of the volume.")
+    d.field("area_times_spacing", &SectionReport::area_times_spacing,
+            "An estimate of the volume: the sum of areas times spacing.")
         .unit("cubic scene units")
         .only_when(stack);
-    d.field("volume", &SectionReport::volume, "Of the parts.")
+    d.field("volume", &SectionReport::volume, "The volume of the parts.")
         .unit("cubic scene units")
         .only_when(stack)
         .null_when("a part is not closed");
-    d.field("ratio", &SectionReport::ratio, "The ratio of that estimate to the volume.")
-        .only_when("there are several planes, and a volume");
+    d.field("ratio", &SectionReport::ratio, "The estimate divided by the volume.")
+        .only_when("the section has several planes and the volume is known");
     d.tell(lines_of);
 }
 
 SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
-                        std::optional<double> volume, Context& context) {
+                        std::optional<double> volume, const std::function<bool()>& is_closed,
+                        Context& context) {
     SectionReport report;
     std::size_t listed = 0;
     for (const auto& sheet : drawing->sheets) {
@@ -187,7 +200,7 @@ SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spaci
     }
     report.drawing = std::move(drawing);
     if (spacing > 0) add_volume(report, spacing, volume);
-    warn(report, context);
+    warn(report, is_closed, context);
     return report;
 }
 

@@ -34,11 +34,13 @@ struct SectionReport {
 };
 void declare_section_report(DeclareFields<SectionReport>& d);
 
-/// The sums over the drawing. A stack (spacing above 0, world units) also reports the areas times the
-/// spacing, and the volume of the selected parts for comparison. volume: none if a part is not closed. Warns
-/// about contours that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise
-/// (W-INSIDE-OUT) or self-crossing (W-SECTION-CROSSES).
+/// The sums over the drawing. For a stack (spacing above 0, world units), also the areas times the spacing,
+/// and the volume of the selected parts for comparison. volume: none if a part is not closed. Warns of
+/// contours that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or
+/// self-crossing (W-SECTION-CROSSES). is_closed: whether all selected parts are; called if outlines are
+/// clockwise.
 [[nodiscard]] SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
-                                      std::optional<double> volume, Context& context);
+                                      std::optional<double> volume, const std::function<bool()>& is_closed,
+                                      Context& context);
 
 } // namespace facetmill::section_stage

@@ -26,11 +26,11 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
         if (!box.empty()) lines += box.diagonal() / spacing;
     }
     if (!(lines <= max_lines))
-        throw Error(ErrorKind::limit, "E-HATCH",
-                    fmt::format("hatching all sections would take about {:.0f} lines, and at most {:.0f} "
-                                "are drawn",
-                                lines, max_lines),
-                    "choose a larger spacing, or fewer planes");
+        throw Error(
+            ErrorKind::limit, "E-HATCH",
+            fmt::format("hatching all sections would take about {:.0f} lines, but the limit is {:.0f}", lines,
+                        max_lines),
+            "choose a larger spacing, or fewer planes");
 }
 
 /// The extent of the selected parts along the normal.
@@ -50,7 +50,7 @@ Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, 
     std::optional<double> spacing;
     if (o.spacing) spacing = context.resolve(*o.spacing, scene, "spacing");
     if (spacing && !(*spacing > 0))
-        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' must be above zero, and it is 0 in this scene",
+        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' is 0 in this scene, but it must be above zero",
                     "give a length in scene units, or count");
     return stack_of(extent(), spacing, o.count);
 }
@@ -121,7 +121,8 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
         std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
     std::optional<double> volume;
     if (stack.spacing > 0) volume = volume_of(scene, context);
-    report = report_of(drawing, stack.spacing, volume, context);
+    report = report_of(
+        drawing, stack.spacing, volume, [&] { return volume || volume_of(scene, context); }, context);
     write_drawings(o, *drawing, context);
     return scene;
 }
@@ -146,7 +147,10 @@ void SectionStage::on_cells(CellFlow& flow, Context& context) const {
         std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
     std::optional<double> volume;
     if (stack.spacing > 0) volume = cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
-    const SectionReport report = report_of(drawing, stack.spacing, volume, context);
+    const auto is_closed = [&] {
+        return volume || cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
+    };
+    const SectionReport report = report_of(drawing, stack.spacing, volume, is_closed, context);
     context.report(*info->result, &report);
     write_drawings(o, *drawing, context);
 }
@@ -161,6 +165,7 @@ const RegisterStage registered = make_stage<SectionStage>(
                   "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
                   "section: {count: 20}"},
      .tells = true,
+     .keeps_scene = true,
      .leaves_points = true},
     declare_section, declare_section_report);
 

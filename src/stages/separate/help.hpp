@@ -6,11 +6,16 @@ namespace facetmill::help::separate {
 inline constexpr const char* about = R"(Separates parts by component, material or group.)";
 
 inline constexpr const char* details =
-    R"(Each result becomes a part of its own, named after the original part and its number, material or
-group, in the order of their first faces. Vertices and wedges that several results share are copied,
-attributes are kept, and isolated vertices are dropped. The first result keeps the node of the part,
-and the others get nodes beside it; all keep its skin and its animation. A part that gives a single
-result is left as it is; so is, with `group`, one of several parts that has no attribute `group`,
-as in an OBJ file whose groups are parts already.)";
+    R"(Each result becomes a part.
+Its name combines the name of the original part and a number, material or group.
+Results are in the order of their first faces.
+Shared vertices and wedges are copied.
+Attributes are kept, and isolated vertices are removed.
+The first result keeps the node of the part, and the others get new nodes next to it.
+All keep its skin and animation.
+
+A part with a single result is left unchanged.
+With `group`, a part without the attribute `group` is also left unchanged, if other parts have it.
+This happens with OBJ files whose groups are already parts.)";
 
 } // namespace facetmill::help::separate

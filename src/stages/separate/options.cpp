@@ -58,7 +58,7 @@ FaceLabels by_group(const Part& part, const Scene& scene, const std::string& att
             throw Error(ErrorKind::stage, "E-GROUP",
                         fmt::format("separate: '{}' of part '{}' does not number groups: it is {} at face {}",
                                     attribute, part.name, x, f),
-                        "a group is a whole number");
+                        "group numbers must be whole numbers");
     return labelled(
         part.mesh.face_count(), [&](Index f) { return static_cast<std::int64_t>(a->value(f, 0)); },
         [&](std::int64_t group, std::size_t) { return fmt::format("{}.{}", part.name, group); });
@@ -69,27 +69,27 @@ FaceLabels by_group(const Part& part, const Scene& scene, const std::string& att
 void declare_separate(Declare<SeparateOptions>& d) {
     d.choice<By>("by", &SeparateOptions::by,
                  {{"component", By::component,
-                   "components connected through edges, with each cavity in the solid around it"},
-                  {"material", By::material, "faces of one material"},
+                   "components connected through edges; each cavity stays with the solid around it"},
+                  {"material", By::material, "faces with the same material"},
                   {"group", By::group, "faces with the same number in a face attribute"}},
-                 "What becomes a separate part.")
+                 "The faces that form a separate part.")
         .primary();
     d.option("attribute", &SeparateOptions::attribute,
              "The face attribute that numbers the groups (with group).")
         .also_called(attribute_synonyms);
     d.option("cavities", &SeparateOptions::cavities,
-             "With component: cavities (closed components that face inward) become parts of their own; "
-             "without this they stay with the solid that they lie in.");
+             "With component: turns cavities (closed components that face inward) into separate parts. By "
+             "default, they stay with the solid around them.");
     d.option("max_parts", &SeparateOptions::max_parts,
-             "The maximum number of parts (a count); more are refused.")
+             "The maximum number of parts. The stage fails if there are more.")
         .at_least(1);
 }
 
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
     if (given.find("attribute") && o.by != By::group)
-        add_refusal(Refusal{"attribute", "'attribute' goes with by: group"}, "separate", given, problems);
+        add_refusal(Refusal{"attribute", "'attribute' needs by: group"}, "separate", given, problems);
     if (given.find("cavities") && o.by != By::component)
-        add_refusal(Refusal{"cavities", "'cavities' goes with by: component"}, "separate", given, problems);
+        add_refusal(Refusal{"cavities", "'cavities' needs by: component"}, "separate", given, problems);
 }
 
 FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {

@@ -20,11 +20,11 @@ struct SeparateReport {
 };
 
 void declare_report(DeclareFields<SeparateReport>& d) {
-    d.field("parts", &SeparateReport::parts, "The number of parts of the scene now.");
+    d.field("parts", &SeparateReport::parts, "The number of parts in the scene after this stage.");
     d.list("separated", &SeparateReport::separated, "Each part that was separated.",
            [](DeclareFields<SeparatedPart>& p) {
-               p.field("part", &SeparatedPart::part, "The name that it had.");
-               p.field("parts", &SeparatedPart::parts, "The number of parts made of it.");
+               p.field("part", &SeparatedPart::part, "The original name of the part.");
+               p.field("parts", &SeparatedPart::parts, "The number of parts made from it.");
            });
 }
 
@@ -33,8 +33,8 @@ void require_few(std::size_t parts, std::int64_t max_parts) {
     if (parts > static_cast<std::size_t>(max_parts))
         throw Error(
             ErrorKind::stage, "E-PARTS",
-            fmt::format("separate: there would be {} parts or more, and max_parts is {}", parts, max_parts),
-            "remove small components first (clean: {components: {min_faces: 10}}), or raise max_parts");
+            fmt::format("separate: there would be at least {} parts, but max_parts is {}", parts, max_parts),
+            "use clean: {components: {min_faces: 10}} first to remove small components, or raise max_parts");
 }
 
 /// The first piece keeps the part's node, and the others become siblings. All keep its skin and animation.

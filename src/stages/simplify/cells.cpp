@@ -23,7 +23,7 @@ SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flo
         settings.max_quadric_error =
             of_part ? limit.amount / 100 * diagonal(outline.parts.front().mesh.bounds())
                     : context.resolve(limit, outline, "max_quadric_error") / greatest_stretch(flow.transform);
-        if (!(*settings.max_quadric_error > 0)) settings.max_quadric_error.reset(); // for a single point
+        if (!(*settings.max_quadric_error > 0)) settings.max_quadric_error.reset(); // 0: a point
     }
     return settings;
 }

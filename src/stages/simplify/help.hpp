@@ -30,8 +30,8 @@ Instances (parts with the same mesh and scale) are simplified once and share the
 Each instance counts, so the result may be below the target by one collapse per instance.
 With max_error or self_intersections, the stage first finds the share of each part, then simplifies
 each part to it.
-share: equal applies the ratio to each part, or a share of faces and vertices in proportion to its
-size.
+The option share: equal applies the ratio to each part, or a share of faces and vertices in
+proportion to its size.
 The methods cluster and constrained always use share: equal because their costs are not comparable.
 
 To preserve the shape, simplification may stop above the target.
@@ -43,10 +43,10 @@ W-SIMPLIFY-LIMIT warns about this, unless borders, seams or non-manifold regions
 Within this limit, a scan can be reduced to a few hundred triangles, and a box in a collection stays
 a box.
 
-max_quadric_error does not limit the measured deviation, which is usually two to four times as
-large.
-max_error limits the deviation and replaces max_quadric_error.
-max_quadric_error: off simplifies to the target regardless of the error.
+The option max_quadric_error does not limit the measured deviation, which is usually two to four
+times as large.
+The option max_error limits the deviation and replaces max_quadric_error.
+With max_quadric_error: off, the surface is simplified to the target regardless of the error.
 
 By default, a closed manifold stays closed and manifold.
 Genus, components and boundary loops are preserved.
@@ -60,7 +60,7 @@ A vertex where several such lines meet does not move.
 Boundaries at exactly the same position are also matched, within a part and between parts.
 For this, parts with coincident boundaries and the same node transform, attributes and shading are
 simplified together.
-Where a part meets a different or unselected part, its vertices do not move.
+Vertices of a part do not move if they meet a different or unselected part.
 
 Non-manifold vertices and the edges between them stay unchanged, but other vertices may collapse
 into them.
@@ -88,29 +88,29 @@ skipped for the maximum.
 Several parts share the samples: half by area, half by number of triangles.
 The report gives the number of samples of each part.
 
-max_error limits this deviation.
+The option max_error limits this deviation.
 The report gives it in scene units and as a percentage of the part's diagonal.
 Points on the surface are tracked, and collapses that exceed the limit in the end are undone one by
 one.
 This takes many times as long as a ratio.
 The method cluster meets the limit by the size of its cells.
 
-lods makes a chain of levels of detail, each simplified further from the previous level.
-write: {path: x.glb, lods: true} stores the levels in one file as MSFT_lod.
+The option lods makes a chain of levels of detail, each simplified further from the previous level.
+Use write: {path: x.glb, lods: true} to store the levels in one file as MSFT_lod.
 Without lods: true, write stores them as separate nodes.
-only: "*.lod1" writes a single level to its own file.
+Use only: "*.lod1" to write a single level to its own file.
 
 The method constrained preserves every vertex on boundaries, seams and borders.
 
 If the mesh needs more memory than facetmill run --memory 2G allows, load and simplify process cells
 on disk.
-Each cell is simplified while its shared vertices stay in place.
+Each cell is simplified, but its shared vertices do not move.
 Groups of two to four cells then follow, up to the whole mesh.
 No borders remain, and a closed surface stays closed.
 This needs ratio or faces and a quadric method, and does not measure the deviation.
 E-CELLS names options that need the mesh in memory.
 
-largest_error depends on the method.
+The result largest_error depends on the method.
 For quadric and cluster, it is the largest root mean square distance of a new vertex to its planes.
 For shortest-edge, it is half the length of the longest collapsed edge.
 For constrained, it is null.
@@ -118,8 +118,8 @@ For constrained, it is null.
 A target at or above the size of the input changes nothing (W-SIMPLIFY-NOTHING, unless it is 100 %).
 If no collapse remains, simplification stops and W-SIMPLIFY-STOPPED gives the reason.
 
-self_intersections: avoid repeats the simplification up to ten times, and halves the allowed error
-of faces that intersect each time.
+The option self_intersections: avoid repeats the simplification up to ten times, and halves the
+allowed error of faces that intersect each time.
 It then tries up to six times with these faces unchanged.
 The report gives the number of remaining intersections.
 

@@ -11,7 +11,9 @@ const RegisterMessages simplify_messages{
     {"W-SIMPLIFY-NOTHING", "`simplify` changes nothing because the target is not below the size of the mesh.",
      "Choose a lower target, or ignore this warning."},
     {"W-SIMPLIFY-STOPPED", "`simplify` stopped above its target because of borders, topology or flips.",
-     "Read the cause in the message, and use `clean` and `orient` first."},
+     "Follow the hint of the message. `simplify: {ratio: 10%, method: cluster}` "
+     "does not keep the borders of texture islands, materials and groups. `clean` repairs non-manifold "
+     "regions, and `topology: allow` lets small components and holes vanish."},
     {"W-SIMPLIFY-VANISHED", "`simplify` removed all faces of a part.",
      "Use a higher target, or exclude the part with `only`."},
 };

@@ -145,7 +145,9 @@ void declare_targets(Declare<SimplifyOptions>& d) {
         .also_called(property_named("vertices")->also_called)
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
-             "The largest deviation from the input, measured in both directions.")
+             "The largest deviation from the input, measured in both directions; of skinned and morphed "
+             "parts, in the rest "
+             "pose (W-REST-POSE).")
         .also_called("error tolerance threshold epsilon deviation max_deviation")
         .above(0);
     declare_share(d);

@@ -2,6 +2,9 @@
 
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
+#include "geometry/edit/moved.hpp"
+#include "io/gltf/gltf.hpp"
+#include "stage/bind_pose.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +18,44 @@ bool is_of_part(const Length& length) {
     return length.kind == Length::Kind::percent && length.of == Length::Of::part;
 }
 
+/// The scene with every part at the largest scale that an animation gives it.
+class LargestPose {
+  public:
+    /// on: false keeps all parts at rest.
+    LargestPose(Scene& scene, bool on) : scene_(scene) {
+        const auto views = on ? io::part_views(scene) : std::vector<io::PartView>();
+        rest_.reserve(scene.parts.size());
+        for (const Part& part : scene.parts) rest_.push_back(part.transform);
+        largest_ = rest_;
+        for (std::size_t i = 0; i < views.size(); ++i) largest_[i] = views[i].largest;
+    }
+
+    const Transform& at_rest(std::size_t part) const { return rest_[part]; }
+    bool enlarges(std::size_t part) const { return largest_[part] != rest_[part]; }
+    void assume() const { set(largest_); }
+    void leave() const { set(rest_); }
+
+  private:
+    void set(const std::vector<Transform>& transforms) const {
+        for (std::size_t i = 0; i < transforms.size(); ++i) scene_.parts[i].transform = transforms[i];
+    }
+
+    Scene& scene_;
+    std::vector<Transform> rest_, largest_;
+};
+
 /// Resolve the lengths in the order of the report.
-SimplifyPartsSettings settings_in(const Scene& scene, const SimplifyOptions& o, Context& context) {
+SimplifyPartsSettings settings_in(const Scene& scene, const LargestPose& pose, const SimplifyOptions& o,
+                                  Context& context) {
     SimplifyPartsSettings s{.all = simplify_settings(o), .selected = {}, .size_before = {}};
     for (const Part& part : scene.parts) s.selected.push_back(context.selects(part, scene));
     s.by_error = shares_by_error(o);
     s.measure = o.measure;
     s.certify = o.certify;
-    s.size_before = [&](std::size_t part) { return context.size_before(scene, part); };
+    s.size_before = [&scene, &pose, &context](std::size_t part) {
+        const Part& p = scene.parts[part];
+        return pose.enlarges(part) ? surface_size(p.mesh, p.transform) : context.size_before(scene, part);
+    };
     if (o.lock.box) s.all.lock.body = planes_of(*o.lock.box);
     if (const auto& limit = o.constraints.hausdorff)
         s.all.constraints.hausdorff = context.resolve(*limit, scene, "constraints.hausdorff");
@@ -83,25 +116,30 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
     const std::string who = limited.size() == 1
                                 ? first + " stopped at"
                                 : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
-    context.warn("W-SIMPLIFY-LIMIT",
-                 fmt::format("{} {} of {} triangles, above the target: fewer triangles would move the "
-                             "surface by more than max_quadric_error ({})",
-                             who, grouped(after), grouped(before), limit.text),
-                 "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: "
-                 "off simplifies to the target regardless of the error");
+    context.warn(
+        "W-SIMPLIFY-LIMIT",
+        fmt::format("{} {} of {} triangles, above the target: fewer triangles would move the surface by "
+                    "more than max_quadric_error ({})",
+                    who, grouped(after), grouped(before), limit.text),
+        "use max_quadric_error: off to reach the target regardless of the error, or a larger one, such as 5% "
+        "of part");
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
-    const SimplifyPartsSettings settings = settings_in(scene, o, context);
+    // An error is seen at its largest. A box to lock is a place in the pose at rest.
+    const LargestPose pose(scene, !o.lock.box);
+    const SimplifyPartsSettings settings = settings_in(scene, pose, o, context);
     const MeshCounts all = count_selected(scene, settings.selected);
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;
     std::vector<Limited> limited;
     std::vector<Part> coarser;
-    // Entries take a kilobyte each, so growing the list would copy much data.
+    std::vector<std::string> moving; // parts whose poses max_error does not bound
+    // An entry takes a kilobyte, so growing the list would copy several times as much.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
         scene.parts[number].changed = true;
-        const Part base = scene.parts[number];
+        Part base = scene.parts[number];
+        base.transform = pose.at_rest(number);
         for (std::size_t i = 0; i < levels.size(); ++i) {
             Part part = base;
             if (i > 0) part.name += fmt::format(".lod{}", i);
@@ -109,17 +147,21 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
             part.mesh = std::exchange(r.mesh, {});
             context.attribute_changes(part, r.changes);
             warn_of_stop(part, r, {asks_for_less(o, all, i), has_target}, context);
+            if (o.max_error && r.faces_after < r.faces_before && has_poses(part)) moving.push_back(part.name);
             if (r.stop == Stop::max_quadric_error)
                 limited.push_back({part.name, r.faces_before, r.faces_after});
-            if (levels[i].surface && !o.lods) // lods add parts to the scene
+            if (levels[i].surface && !o.lods && !pose.enlarges(number)) // lods add parts to the scene
                 context.keep_size(number, *levels[i].surface);
             levels[i].part = part.name;
             report.parts.push_back(std::move(levels[i]));
             (i > 0 ? coarser.emplace_back() : scene.parts[number]) = std::move(part);
         }
     };
+    pose.assume();
     facetmill::simplify_parts(scene, settings, take);
+    pose.leave();
     for (Part& part : coarser) scene.parts.push_back(std::move(part));
+    warn_of_rest_pose("max_error", moving, context);
     if (o.max_quadric_error) warn_of_limit(limited, *o.max_quadric_error, context);
     return scene;
 }

@@ -18,7 +18,7 @@ struct AskedFor {
     bool less = true, target = true;
 };
 
-/// Warns if a part stopped above its target, had nothing to do, or vanished.
+/// Warns if a part stopped above its target, needed no collapse, or vanished.
 void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Context& context);
 
 /// A part that max_quadric_error stopped above its target.

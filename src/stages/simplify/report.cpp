@@ -19,12 +19,14 @@ struct Reason {
 
 std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
     return {{b.seams, "by seams and by borders of materials and groups",
-             "use fewer texture islands, materials and groups: their borders are preserved"},
-            {b.borders, "by boundaries and locks", "ask for more faces, or lock fewer vertices"},
+             "use method: cluster, which does not keep the borders of texture islands, materials and groups"},
+            {b.borders, "by boundaries and locks",
+             "ask for more faces, lock fewer vertices, or use method: cluster, which moves boundaries"},
             {b.non_manifold, "at non-manifold regions", "use clean before simplify to repair them"},
-            {b.topology, "by topology", "topology: allow lets small components, holes and handles vanish"},
-            {b.flips, "because a face would flip", "ask for more faces"},
-            {b.error, "by max_quadric_error", "allow a larger max_quadric_error, or off"}};
+            {b.topology, "by topology",
+             "use topology: allow, which lets small components, holes and handles vanish"},
+            {b.flips, "because a face would flip", "ask for more faces, or use method: cluster"},
+            {b.error, "by max_quadric_error", "use a larger max_quadric_error, or max_quadric_error: off"}};
 }
 
 } // namespace

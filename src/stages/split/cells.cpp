@@ -22,9 +22,9 @@ std::optional<std::string> why_not_on_cells(const SplitOptions& o) {
     for (const auto& [given, name] :
          {std::pair{o.max_edge.has_value(), "max_edge"}, std::pair{o.min_angle.has_value(), "min_angle"},
           std::pair{o.max_faces.has_value(), "max_faces"}})
-        if (given) return fmt::format("the target {} is decided for the whole mesh; passes is not", name);
+        if (given) return fmt::format("the target {} needs the whole mesh; passes works", name);
     if (o.chosen() != SplitMethod::midpoint)
-        return fmt::format("the method {} needs the whole mesh; midpoint does not", to_string(o.chosen()));
+        return fmt::format("the method {} needs the whole mesh; midpoint works", to_string(o.chosen()));
     return {};
 }
 

@@ -13,13 +13,13 @@ using Method = std::optional<SplitMethod>;
 
 const std::vector<NamedChoice<Method>> methods = {
     {to_string(SplitMethod::midpoint), SplitMethod::midpoint,
-     "at the midpoints of edges: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; the "
-     "angles of triangles do not become smaller"},
+     "at the midpoints of edges: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; angles of "
+     "triangles do not become smaller"},
     {to_string(SplitMethod::bisect), SplitMethod::bisect,
-     "triangles into 2 at their longest edge, into 3 or 4 where neighbours cut the other edges; see cut"},
+     "triangles into 2 at their longest edge, or into 3 or 4 if neighbours cut the other edges; see cut"},
     {to_string(SplitMethod::notch), SplitMethod::notch,
      "triangles between the midpoints of their two longest edges, into a triangle and a quad; into 4 "
-     "triangles where the third edge is cut as well"},
+     "triangles if the third edge is cut as well"},
     {to_string(SplitMethod::centroid), SplitMethod::centroid,
      "into triangles from every edge to the centroid: a triangle becomes 3, a quad 4"},
     {to_string(SplitMethod::core), SplitMethod::core,
@@ -30,9 +30,9 @@ const std::vector<NamedChoice<Method>> methods = {
      "quads into 2 between the midpoints of their longer opposite edges; neighbours at those edges are cut "
      "as well"},
     {to_string(SplitMethod::varignon), SplitMethod::varignon,
-     "into the polygon of the edges' midpoints and a triangle at every corner: a quad becomes 5 faces"},
+     "into the polygon of edge midpoints and a triangle at every corner: a quad becomes 5 faces"},
     {to_string(SplitMethod::diagonal), SplitMethod::diagonal,
-     "quads into 2 triangles along their shorter diagonal, concave quads along the inner one"},
+     "quads into 2 triangles along their shorter diagonal, concave quads along the inner diagonal"},
     {to_string(SplitMethod::fan), SplitMethod::fan,
      "quads and larger faces into triangles to the centroid: a quad becomes 4"},
     {to_string(SplitMethod::grid), SplitMethod::grid,
@@ -50,43 +50,41 @@ const std::vector<NamedChoice<Method>> methods = {
 
 void declare_split(Declare<SplitOptions>& d) {
     d.choice<Method>("method", &SplitOptions::method, methods,
-                     "How faces are split; midpoint unless given, or bisect when there is a target.")
+                     "The method of splitting. Default: midpoint, or bisect with a target.")
         .primary();
     d.option("grid", &SplitOptions::grid,
-             "The number of segments that each edge is cut into (a count); every face becomes n x n faces. "
-             "Implies the method grid.")
+             "The number of segments for each edge. Every face becomes n x n faces. Implies the method grid.")
         .between(1, 10000);
     d.option("passes", &SplitOptions::passes,
-             "The number of passes (a count; 1 unless given); with max_edge or max_faces, the maximum number "
-             "(100 unless given). A warning says when max_edge was not reached.")
+             "The number of passes. Default: 1. With max_edge or max_faces, the maximum number, by default "
+             "100. A warning appears if max_edge was not reached.")
         .also_called("iterations levels level depth")
         .between(0, 100);
     d.choice<Cut>("cut", &SplitOptions::cut,
                   {{"longest-edge", Cut::longest_edge, "in the middle of the longest edge"},
                    {"widest-angle", Cut::widest_angle,
                     "where the bisector of the widest angle meets the opposite edge; not with a target, "
-                    "which such cuts might never reach"}},
+                    "because such cuts may never reach it"}},
                   "Where bisect cuts a triangle.");
     d.option("max_edge", &SplitOptions::max_edge,
-             "Split until no edge is longer than this (a length): with bisect only where needed; with "
-             "midpoint, quads, loop, butterfly and catmull-clark everywhere.")
+             "Splits until no edge is longer than this. bisect splits only where needed. midpoint, quads, "
+             "loop, butterfly and catmull-clark split everywhere.")
         .also_called("edge_length target_length target_edge_length max_edge_length")
         .above(0);
-    d.option(
-         "min_angle", &SplitOptions::min_angle,
-         "Split only triangles that have a smaller angle than this (an angle), by bisect or notch, and "
-         "the neighbours that must follow. A split makes such triangles smaller, not fewer: another pass is "
-         "done only if it does not increase their number, and a warning gives the number that remains. "
-         "With bisect no angle becomes smaller than half the smallest original one.")
+    d.option("min_angle", &SplitOptions::min_angle,
+             "Splits only triangles with a smaller angle than this, by bisect or notch, and neighbours that "
+             "must follow. This makes such triangles smaller, not fewer. Another pass runs only if it does "
+             "not increase their number, and a warning gives the number that remains. With bisect, no angle "
+             "becomes smaller than half of the smallest original angle.")
         .above(0)
         .at_most(60);
     d.option("max_faces", &SplitOptions::max_faces,
-             "The maximum number of faces (a count, for all parts together): bisect cuts the longest edges "
-             "first; other methods stop before the pass that would exceed it.")
+             "The maximum number of faces of all parts together. bisect cuts the longest edges first. Other "
+             "methods stop before the pass that would exceed it.")
         .at_least(1);
     d.option("feature_angle", &SplitOptions::feature_angle,
-             "Smooth methods: edges whose dihedral angle is larger than this stay sharp (an angle between "
-             "the normals of the two faces; if not given, only boundaries do).")
+             "For smooth methods: edges stay sharp if the normals of their two faces differ by more than "
+             "this angle. By default, only boundaries stay sharp.")
         .between(0, 180);
 }
 
@@ -96,18 +94,18 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
         add_refusal(refusal, "split", given, problems);
     };
     if (o.grid && o.method && o.method != SplitMethod::grid)
-        refuse(Refusal{"grid", "'grid' goes with the method grid only", "leave out either method or grid"});
+        refuse(Refusal{"grid", "'grid' needs the method grid", "remove either method or grid"});
     if (o.method == SplitMethod::grid && !o.grid)
         problems.add(given.mark, "E-MISSING",
                      "split: the method grid needs 'grid', the number of segments per edge",
                      "for example split: {grid: 3}");
     if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
-        refuse(
-            Refusal{"cut", fmt::format("'cut' goes with the method bisect, not with {}", to_string(method))});
+        refuse(Refusal{"cut", fmt::format("'cut' needs the method bisect, not {}", to_string(method))});
     if (o.feature_angle && (!is_smooth(method) || method == SplitMethod::sqrt3))
-        refuse(Refusal{"feature_angle",
-                       fmt::format("'feature_angle' goes with loop, butterfly and catmull-clark, not with {}",
-                                   to_string(method))});
+        refuse(
+            Refusal{"feature_angle",
+                    fmt::format("'feature_angle' needs the method loop, butterfly or catmull-clark, not {}",
+                                to_string(method))});
     SplitSettings s;
     s.method = method;
     // Only marks that a target is set, because its length is known only with the scene.

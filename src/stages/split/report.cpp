@@ -15,26 +15,26 @@ auto change_of(Get get, const char* unit) {
     return [get, unit](DeclareFields<SplitPart>& d) {
         const auto before = [get](const SplitPart& p) { return get(p.before); };
         const auto after = [get](const SplitPart& p) { return get(p.after); };
-        d.field("before", before, "Of the part that entered.").unit(unit);
-        d.field("after", after, "Of the part that left.").unit(unit);
+        d.field("before", before, "Before the stage.").unit(unit);
+        d.field("after", after, "After the stage.").unit(unit);
     };
 }
 
 void declare_part(DeclareFields<SplitPart>& d) {
-    d.field("part", &SplitPart::part, "Its name.");
-    d.field("added_faces", &SplitPart::added_faces, "The number of faces added.");
+    d.field("part", &SplitPart::part, "The name of the part.");
+    d.field("added_faces", &SplitPart::added_faces, "The number of added faces.");
     d.field("passes", &SplitPart::passes, "The number of passes.");
     d.choice("stopped_by", &SplitPart::stopped_by,
-             {{"passes", "passes", "as many as requested"},
+             {{"passes", "passes", "the requested number was done"},
               {"max_edge", "max_edge", "no edge is longer"},
               {"min_angle", "min_angle", "no triangle has a smaller angle"},
-              {"max_faces", "max_faces", "the next cut would have made more"},
+              {"max_faces", "max_faces", "the next cut would exceed it"},
               {"narrow", "narrow", "a pass would have made more triangles with a smaller angle"},
               {"nothing", "nothing", "no edge has a length"}},
-             "What stopped the work.");
-    d.field("narrow", &SplitPart::narrow, "Triangles left whose angle is smaller.")
+             "The reason why the split ended.");
+    d.field("narrow", &SplitPart::narrow, "Remaining triangles with a smaller angle.")
         .only_when("min_angle is given");
-    d.field("narrow_before", &SplitPart::narrow_before, "Such triangles before.")
+    d.field("narrow_before", &SplitPart::narrow_before, "Triangles with a smaller angle before.")
         .only_when("min_angle is given");
     const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
     const auto longest = [](const FacetShape& s) { return s.longest_edge; };
@@ -99,11 +99,12 @@ void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSet
                                           s.min_angle * (180 / pi));
     const std::string left = r.passes > 0 ? fmt::format(": {} {} left ({} before)", faces,
                                                         r.narrow == 1 ? "is" : "are", r.narrow_before)
-                                          : " stays as it is, with " + faces;
+                                          : " stays unchanged, with " + faces;
     context.warn("W-SPLIT-STOPPED",
                  fmt::format("part '{}'{}: {}", part.name, left,
                              narrow ? "a pass would make more of them" : "passes ended the split"),
-                 "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
+                 "a split never makes an angle larger: use relax to even out faces, or simplify to remove "
+                 "narrow ones");
 }
 
 } // namespace
@@ -119,7 +120,7 @@ void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings
     else if (s.max_edge > 0 && r.stop != SplitResult::Stop::target)
         context.warn(
             "W-SPLIT-STOPPED",
-            fmt::format("part '{}' has edges of {:.4g} left, above max_edge {:.4g}: {} ended the split",
+            fmt::format("part '{}' still has edges of {:.4g}, above max_edge {:.4g}: {} ended the split",
                         part.name, longest, s.max_edge,
                         out_of_room ? std::string("max_faces") : fmt::format("passes ({})", s.passes)),
             out_of_room ? "give a larger max_faces, or a longer max_edge"
@@ -129,24 +130,25 @@ void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings
     else if (const char* kind = only_splits(s.method);
              kind && r.passes > 0 && r.added == 0 && part.mesh.face_count() > 0)
         context.warn("W-SPLIT-NOTHING",
-                     fmt::format("part '{}' stays as it is: {} splits only {}, and it has none", part.name,
-                                 to_string(s.method), kind),
+                     fmt::format("part '{}' stays unchanged: {} splits only {}, and the part has none",
+                                 part.name, to_string(s.method), kind),
                      "use midpoint, centroid or quads, which split faces of all kinds");
 }
 
 void warn_of_spots(const Part& part, const SplitResult& r, SplitMethod method, Context& context) {
     if (r.folded > 0)
-        context.warn("W-SPLIT-FOLDED",
-                     fmt::format("in part '{}' {} faces are concave or intersect themselves: the faces that "
-                                 "{} makes of them overlap",
-                                 part.name, r.folded, to_string(method)),
-                     "use triangulate first, or 'split: diagonal' for quads");
+        context.warn(
+            "W-SPLIT-FOLDED",
+            fmt::format(
+                "in part '{}' {} faces are concave or intersect themselves, so the new faces from {} overlap",
+                part.name, r.folded, to_string(method)),
+            "use triangulate first, or 'split: diagonal' for quads");
     if (r.shared > 0)
         context.warn("W-SPLIT-SHARED",
                      fmt::format("in part '{}' faces share two edges at {} vertices: their new edges there "
                                  "coincide and have more than two faces",
                                  part.name, r.shared),
-                     "clean removes duplicate faces; 'split: centroid' makes no such edges");
+                     "use clean to remove duplicate faces; 'split: centroid' makes no such edges");
 }
 
 } // namespace facetmill::split_stage

@@ -38,7 +38,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
         if (context.selects(part, scene)) total += static_cast<double>(part.mesh.face_count());
     context.for_each_part(scene, [&](Part& part) {
         if (o.max_edge) settings.max_edge = context.resolve(*o.max_edge, scene, "max_edge", &part);
-        if (o.max_edge && settings.max_edge <= 0) settings.passes = 0; // for a percentage of a single point
+        if (o.max_edge && settings.max_edge <= 0) settings.passes = 0; // a percentage of a single point is 0
         settings.max_faces = share(o, part, total);
         settings.to_world = part.transform;
         const FacetShape before = facet_shape(part.mesh, settings.to_world);
@@ -75,8 +75,8 @@ const RegisterStage registered = make_stage<SplitStage>(
     {.name = "split",
      .also_called = "subdivide refine subdivision",
      .chain = {"remesh remeshing isotropic_remesh isotropic_remeshing",
-               "edges of about one length come of three stages: split: {max_edge: 2%}, simplify: {ratio: "
-               "40%, method: shortest-edge}, relax: {iterations: 3, method: taubin}"},
+               "three stages make edges of similar length: split: {max_edge: 2%}, simplify: {ratio: 40%, "
+               "method: shortest-edge}, relax: {iterations: 3, method: taubin}"},
      .about = help::split::about,
      .details = help::split::details,
      .examples = {"split: midpoint", "split: {method: bisect, passes: 3}", "split: {grid: 3}",

@@ -17,22 +17,23 @@ constexpr std::int64_t longest_side = 16384; // the longest side of any readable
 
 template <class F>
 std::vector<NamedChoice<F>> formats() {
-    return {{"keep", Format::keep, "the format that each has"},
-            {"png", Format::png, "without loss"},
+    return {{"keep", Format::keep, "the current format of each image"},
+            {"png", Format::png, "PNG, lossless"},
             {"jpeg", Format::jpeg, "progressive JPEG, without alpha"},
-            {"webp", Format::webp, "WebP, by EXT_texture_webp"},
-            {"ktx2", Format::ktx2, "KTX2, by KHR_texture_basisu; needs the program ktx or toktx"}};
+            {"webp", Format::webp, "WebP, through EXT_texture_webp"},
+            {"ktx2", Format::ktx2, "KTX2, through KHR_texture_basisu; needs the program ktx or toktx"}};
 }
 
 void declare_role(Declare<RoleOptions>& d) {
-    d.option("max_size", &RoleOptions::max_size, "As above, for these.")
+    d.option("max_size", &RoleOptions::max_size, "The same option for these images only.")
         .also_called("resize resolution texture_size")
         .between(1, longest_side);
-    d.option("power_of_two", &RoleOptions::power_of_two, "As above, for these.");
-    d.choice<MaybeFormat>("format", &RoleOptions::format, formats<MaybeFormat>(), "As above, for these.")
+    d.option("power_of_two", &RoleOptions::power_of_two, "The same option for these images only.");
+    d.choice<MaybeFormat>("format", &RoleOptions::format, formats<MaybeFormat>(),
+                          "The same option for these images only.")
         .also_called(format_synonyms);
-    d.option("quality", &RoleOptions::quality, "As above, for these.").between(1, 100);
-    d.option("lossless", &RoleOptions::lossless, "As above, for these.");
+    d.option("quality", &RoleOptions::quality, "The same option for these images only.").between(1, 100);
+    d.option("lossless", &RoleOptions::lossless, "The same option for these images only.");
 }
 
 ImageSettings with_role(const TexturesOptions& o, const RoleOptions& role, int quality) {
@@ -65,31 +66,29 @@ bool wants_ktx2(const TexturesOptions& o) {
 void declare_textures(Declare<TexturesOptions>& d) {
     d.option(
          "max_size", &TexturesOptions::max_size,
-         "The longest side in pixels: larger images are scaled down to it (a count; if not given, none are).")
+         "The longest side in pixels. Larger images are scaled down to it. By default, no image is scaled.")
         .also_called("resize resolution texture_size")
         .between(1, longest_side)
         .primary();
     d.option("power_of_two", &TexturesOptions::power_of_two,
-             "Scales each side down to a power of two, as some older hardware needs it.");
+             "Scales each side down to a power of two, which some older hardware needs.");
     d.choice<Format>("format", &TexturesOptions::format, formats<Format>(),
-                     "The format of the images, as far as they become smaller in it.")
+                     "The format of the images. An image is converted only if it becomes smaller.")
         .also_called(format_synonyms);
     d.option("quality", &TexturesOptions::quality,
-             "Of JPEG, WebP and KTX2, where an image is written anew; if not given, 80 for colours and 90 "
-             "for the "
-             "others (a count).")
+             "The quality of converted or scaled JPEG, WebP and KTX2 images. Default: 80 for colours and 90 "
+             "for others.")
         .between(1, 100);
-    d.option("lossless", &TexturesOptions::lossless, "Writes WebP without loss.");
-    d.option(
-        "repack", &TexturesOptions::repack,
-        "Packs PNG and JPEG images that would stay as they are anew where that makes them smaller, without "
-        "a change of a pixel.");
+    d.option("lossless", &TexturesOptions::lossless, "Writes lossless WebP.");
+    d.option("repack", &TexturesOptions::repack,
+             "Repacks PNG and JPEG images that would stay unchanged, if that makes them smaller. Pixels do "
+             "not change.");
     d.option("timeout", &TexturesOptions::timeout,
-             "Seconds that ktx or toktx may take for one image before the run fails (a count).")
+             "Time limit in seconds for ktx or toktx per image. The run fails when it is exceeded.")
         .between(1, 86400);
-    d.group("normals", &TexturesOptions::normals, "What is different for normal maps.", declare_role);
+    d.group("normals", &TexturesOptions::normals, "Different settings for normal maps.", declare_role);
     d.group("data", &TexturesOptions::data,
-            "What is different for images that are neither colours nor normals.", declare_role);
+            "Different settings for images that are neither colours nor normals.", declare_role);
 }
 
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems) {
@@ -97,10 +96,10 @@ void verify_textures(const TexturesOptions& o, const Value& given, Problems& pro
         const char* named = std::getenv("FACETMILL_KTX");
         add_refusal(
             Refusal{"format",
-                    named && *named ? fmt::format("FACETMILL_KTX names no program: '{}'", named)
-                                    : "KTX2 is encoded by the program ktx or toktx, and neither is in PATH",
-                    "install KTX-Software (https://github.com/KhronosGroup/KTX-Software/releases), or name "
-                    "the program by the variable FACETMILL_KTX; format: webp needs no other program",
+                    named && *named ? fmt::format("FACETMILL_KTX does not name a program: '{}'", named)
+                                    : "KTX2 needs the program ktx or toktx, but neither is in PATH",
+                    "install KTX-Software (https://github.com/KhronosGroup/KTX-Software/releases), or give "
+                    "the path of the program in FACETMILL_KTX; format: webp needs no other program",
                     "E-KTX"},
             "textures", given, problems);
         return;
@@ -109,9 +108,8 @@ void verify_textures(const TexturesOptions& o, const Value& given, Problems& pro
         {"lossless", for_colours(o)}, {"normals", for_normals(o)}, {"data", for_data(o)}};
     for (const auto& [option, s] : roles) {
         if (!s.lossless || s.format == Format::webp || s.format == Format::keep) continue;
-        add_refusal(
-            Refusal{option, "'lossless' goes with format: webp only", "use format: webp, or leave it out"},
-            "textures", given, problems);
+        add_refusal(Refusal{option, "'lossless' needs format: webp", "use format: webp, or remove it"},
+                    "textures", given, problems);
         return;
     }
 }

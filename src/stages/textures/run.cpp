@@ -82,7 +82,7 @@ Error about_image(const Error& error, const std::string& image) {
     return {error.kind(), first.id,
             fmt::format("textures: for the image '{}' {} {}", image,
                         program ? program->filename().string() : "ktx", first.message),
-            first.hint.empty() ? "facetmill explain E-KTX" : first.hint};
+            first.hint.empty() ? "run facetmill explain E-KTX" : first.hint};
 }
 
 /// Processes several images at once. Their total is limited to the pixels of the largest allowed image,
@@ -140,24 +140,25 @@ void tell(const std::vector<Job>& jobs, Context& context, TexturesReport& report
         if (w.warn)
             context.warn("W-TEXTURE-KEPT",
                          fmt::format("textures: the image '{}' {}: {}", job.image->name,
-                                     w.bytes.empty() ? "stays as it is" : "keeps its format", w.why));
+                                     w.bytes.empty() ? "stays unchanged" : "keeps its format", w.why));
     }
 }
 
 void declare_state(DeclareFields<ImageState>& d) {
-    d.field("format", &ImageState::format, "png, jpeg, webp, ktx2 or dds; empty for others.");
-    d.field("width", &ImageState::width, "0 where it cannot be read.").unit("pixels");
-    d.field("height", &ImageState::height, "0 where it cannot be read.").unit("pixels");
-    d.field("bytes", &ImageState::bytes, "Of the file.").unit("bytes");
+    d.field("format", &ImageState::format, "The format: png, jpeg, webp, ktx2 or dds. Empty for others.");
+    d.field("width", &ImageState::width, "0 if the image cannot be read.").unit("pixels");
+    d.field("height", &ImageState::height, "0 if the image cannot be read.").unit("pixels");
+    d.field("bytes", &ImageState::bytes, "The size of the file.").unit("bytes");
 }
 
 void declare_image(DeclareFields<ReportedImage>& d) {
-    d.field("image", &ReportedImage::image, "Its name, its file's, or its place in the document.");
-    d.field("used_as", &ReportedImage::used_as, "The textures of materials that it is used as.");
-    d.object("before", &ReportedImage::before, "As it entered.", declare_state);
-    d.object("after", &ReportedImage::after, "As it left.", declare_state);
-    d.field("kept", &ReportedImage::kept, "Why it stays as it is, or keeps its format.")
-        .only_when("more was asked for");
+    d.field("image", &ReportedImage::image,
+            "The name of the image or its file, or its position in the document.");
+    d.field("used_as", &ReportedImage::used_as, "The textures of materials that use the image.");
+    d.object("before", &ReportedImage::before, "The image before.", declare_state);
+    d.object("after", &ReportedImage::after, "The image after.", declare_state);
+    d.field("kept", &ReportedImage::kept, "The reason why the image stays unchanged or keeps its format.")
+        .only_when("the options asked for more");
 }
 
 std::string text_of(const ImageState& s) {
@@ -179,23 +180,23 @@ std::vector<std::string> lines_of(const TexturesReport& r) {
     for (const ReportedImage& image : r.images)
         if (lines.size() < most) lines.push_back(line_of(image));
     if (r.images.size() > most)
-        lines.push_back(fmt::format("... and {} more, which the report has", r.images.size() - most));
-    if (r.images.empty()) return {"there are no images"};
-    const std::string repacked = r.repacked > 0 ? fmt::format("{} packed anew, ", r.repacked) : "";
-    lines.push_back(fmt::format("{} resized, {} in another format, {}{} as before: {} -> {}", r.resized,
+        lines.push_back(fmt::format("... and {} more, listed in the report", r.images.size() - most));
+    if (r.images.empty()) return {"the scene has no images"};
+    const std::string repacked = r.repacked > 0 ? fmt::format("{} repacked, ", r.repacked) : "";
+    lines.push_back(fmt::format("{} resized, {} in another format, {}{} unchanged: {} -> {}", r.resized,
                                 r.converted, repacked, r.unchanged, sized(r.bytes_before),
                                 sized(r.bytes_after)));
     return lines;
 }
 
 void declare_report(DeclareFields<TexturesReport>& d) {
-    d.list("images", &TexturesReport::images, "Each image; those of equal bytes are one.", declare_image);
-    d.field("resized", &TexturesReport::resized, "Images that are smaller now.");
-    d.field("converted", &TexturesReport::converted, "Images that have another format now.");
-    d.field("repacked", &TexturesReport::repacked, "Images that have the same pixels in fewer bytes.");
-    d.field("unchanged", &TexturesReport::unchanged, "Images that are the same, byte for byte.");
-    d.field("bytes_before", &TexturesReport::bytes_before, "Of all images that entered.").unit("bytes");
-    d.field("bytes_after", &TexturesReport::bytes_after, "Of all images that left.").unit("bytes");
+    d.list("images", &TexturesReport::images, "Each image. Equal images are listed once.", declare_image);
+    d.field("resized", &TexturesReport::resized, "Images that became smaller.");
+    d.field("converted", &TexturesReport::converted, "Images that got another format.");
+    d.field("repacked", &TexturesReport::repacked, "Images that were repacked with the same pixels.");
+    d.field("unchanged", &TexturesReport::unchanged, "Images that stayed byte for byte the same.");
+    d.field("bytes_before", &TexturesReport::bytes_before, "The size of all images before.").unit("bytes");
+    d.field("bytes_after", &TexturesReport::bytes_after, "The size of all images after.").unit("bytes");
     d.tell(lines_of);
 }
 
@@ -226,7 +227,7 @@ const RegisterStage registered = make_stage<TexturesStage>(
                   "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"},
      .changes_images = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all}, // it changes no mesh, so nothing is compared
+     .may_lose = MayLose::all}, // the stage changes no mesh, so nothing is compared
     declare_textures, declare_report);
 
 } // namespace

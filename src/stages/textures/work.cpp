@@ -87,9 +87,10 @@ io::Bytes encoded_ktx2(Pixels image, const io::ImageUse& use, const ImageSetting
 
 /// The reason why a processed image does not become KTX2.
 Reason reason_against_ktx2(const ImageState& image, const io::ImageUse& use) {
-    if (use.fallback) return {"readers that do not know KTX2 need it"};
+    if (use.fallback) return {"readers without KTX2 need it"};
     if (use.colours && (use.normals || use.numbers))
-        return {"materials read it as colours and as numbers, of which a KTX2 texture is one", true};
+        return {"materials use it both as colours and as numbers, but a KTX2 texture supports only one",
+                true};
     if (image.width < block || image.height < block)
         return {"the sides of KTX2 textures are multiples of 4 pixels, and images are not made larger", true};
     return {};
@@ -102,12 +103,12 @@ ProcessedImage kept(const ImageState& state, std::string why, bool warn) {
 
 /// The reason, from the header alone, to keep an image unchanged.
 Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
-    if (image.bytes == 0) return {"it is not there"}; // an earlier warning reported it
-    if (image.format.empty()) return {"it is of no kind that is read", true};
-    if (use.held) return {"something else than the materials of these parts reads it"};
-    if (use.nearest) return {"its pixels are read one by one, as those of a palette are"};
+    if (image.bytes == 0) return {"it is missing"}; // an earlier warning reported it
+    if (image.format.empty()) return {"its kind is not supported", true};
+    if (use.held) return {"it is used outside these parts"};
+    if (use.nearest) return {"its pixels are read one by one, like a palette"};
     if (use.textures.empty()) return {"no material uses it"};
-    if (image.format == "ktx2" || image.format == "dds") return {"its format is not read"};
+    if (image.format == "ktx2" || image.format == "dds") return {"its format cannot be read"};
     if (image.width == 0) return {"it is broken", true};
     if (image.height > io::max_pixels / image.width) return {"it has more than 2^26 pixels", true};
     return {};
@@ -154,7 +155,7 @@ ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before,
     auto image = io::decoded_image(bytes);
     if (!image || image->damaged) return kept(before, "it is broken", true);
     if (format == "jpeg" && before.format != "jpeg" && use.alpha && !io::is_opaque(*image)) {
-        why = "its alpha is used, which JPEG has not";
+        why = "its alpha is used, but JPEG has no alpha";
         warn = true;
         format = before.format;
         if (!smaller) return kept(before, why, true);

@@ -15,7 +15,7 @@ struct ImageState {
 struct ProcessedImage {
     ImageState before, after;
     io::Bytes bytes;   ///< empty: the image stays unchanged
-    std::string why;   ///< the reason, if an image with options stays unchanged; else empty
+    std::string why;   ///< the reason, if an image with options stays unchanged; otherwise empty
     bool warn = false; ///< the result differs from the request
 };
 

@@ -14,22 +14,25 @@ A closed component becomes solid if no ball fits into it whose radius is the thi
 Each vertex moves so that the planes of its faces move by the thickness, as closely as one position
 allows.
 Flat walls therefore keep their thickness up to their corners.
-miter_limit limits the movement at sharp corners.
+The option miter_limit limits the movement at sharp corners.
 The solid is closed only if the surface is oriented (W-THICKEN-OPEN), so use orient first.
 Sheets become separate solids if they meet only at a vertex, or at an edge with more than two faces.
 Instances of a mesh with the same rotation and scale are thickened once and share the result.
 
-Flat faces whose triangles would be inverted in their plane are triangulated again, so a ring or a
-plate with holes keeps its shape. The result is checked for self-intersections (unless the thickness
-is larger than the part), for other faces that are inverted by the offset, including faces that
-collapse, and for walls within other walls (W-THICKEN). Faces that only touch are not
-self-intersections. The wall thickness is measured from the vertices of the front to the faces of the
-back. The report gives all of these. Attributes are kept on both sides, with normals reversed on the
-back; walls take the attributes of their edge and have normals of their own.
+Flat faces are triangulated again if the offset would invert their triangles in their plane.
+A ring or a plate with holes therefore keeps its shape.
+The stage checks the result for self-intersections, unless the thickness is larger than the part.
+Faces that only touch are not self-intersections.
+It also looks for other faces that the offset inverted or collapsed, and for walls inside other walls
+(W-THICKEN).
+The report gives these counts and the wall thickness, measured from the front vertices to the back
+faces.
+Both sides keep their attributes, and the back gets reversed normals.
+Walls copy the attributes of their edge and get their own normals.
 
 With self_intersections: resolve, boolean operations rebuild a solid that folds or intersects
 itself.
-A closed surface gives its own solid minus the solid of the moved copy.
+A closed surface gives the volume between itself and its moved copy.
 If there is too little room for the thickness, the wall becomes thinner or fills the space.
 Cavities and pieces smaller than a cube of the thickness are removed.
 An open surface becomes the solid enclosed by its two sides and its walls.

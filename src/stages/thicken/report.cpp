@@ -46,7 +46,7 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
             "Closed components that became solid because they have no room for a cavity.")
         .only_when(surface);
     d.field("turned_faces", of_surface(&ThickenResult::turned),
-            "Faces of the front and the back that the offset inverted. The wall folds there.")
+            "Faces of the front and the back that the offset inverted. The wall folds at these faces.")
         .only_when(surface);
     d.field("resolved", of_surface(&ThickenResult::resolved),
             "Whether self_intersections: resolve rebuilt the solid. If true, turned_faces is 0.")

@@ -37,9 +37,9 @@ void declare(Declare<TileOptions>& d) {
         .required()
         .primary();
     d.option("axes", &TileOptions::axes, "The axes along which the grid cuts: any of x, y and z.");
-    d.option("origin", &TileOptions::origin,
-             "A corner of the grid: one length for each axis; 0 unless given. The grid extends in both "
-             "directions.");
+    d.option(
+        "origin", &TileOptions::origin,
+        "A corner of the grid: one length for each axis. Default: 0. The grid extends in both directions.");
     declare_cap(d, &TileOptions::cap, &TileOptions::cap_material);
 }
 
@@ -49,8 +49,8 @@ std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context&
         const Length& size = o.size[o.size.size() > 1 ? i : 0];
         const double edge = context.resolve(size, scene, "size");
         if (!(edge > 0))
-            throw Error(ErrorKind::stage, "E-TILE", "the size of the tiles comes to 0 in this scene",
-                        "its bounding box has no extent: give a length in scene units");
+            throw Error(ErrorKind::stage, "E-TILE", "the size of the tiles is 0 in this scene",
+                        "the bounding box has no extent: give a length in scene units");
         axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), edge,
                         o.origin.empty() ? 0 : context.resolve(o.origin[i], scene, "origin")});
     }
@@ -58,17 +58,17 @@ std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context&
 }
 
 void declare_tile(DeclareFields<ReportedTile>& d) {
-    d.field("part", &ReportedTile::part, "Its name.");
+    d.field("part", &ReportedTile::part, "The name of the tile.");
     for (std::size_t axis = 0; axis < 3; ++axis)
         d.field(
              std::string("tile_") + "xyz"[axis], [axis](const ReportedTile& t) { return t.cell[axis]; },
-             "Its index along that axis.")
-            .only_when("that axis is cut");
-    d.field("faces", &ReportedTile::faces, "Its faces.");
+             "The index along this axis.")
+            .only_when("this axis is cut");
+    d.field("faces", &ReportedTile::faces, "The number of faces.");
 }
 
 void declare_report(DeclareFields<TileReport>& d) {
-    d.list("tiles", &TileReport::tiles, "Each tile that has faces, or points of a cloud.", declare_tile);
+    d.list("tiles", &TileReport::tiles, "Each tile with faces or points.", declare_tile);
     d.field("cut_faces", &TileReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &TileReport::cap_faces, "Faces of caps.");
     d.field("open_contours", &TileReport::open_contours,
@@ -161,7 +161,7 @@ struct TileStage : StageOf<run> {
         };
         if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
             problems.add(mark_at(given, "axes"), "E-TILE",
-                         fmt::format("tile: 'axes' takes each of x, y, z at most once, found '{}'", o.axes),
+                         fmt::format("tile: 'axes' accepts each of x, y, z at most once, found '{}'", o.axes),
                          "for example axes: xy");
         const Value* sizes = given.is_map() ? given.find("size") : &given;
         if (o.size.empty())

@@ -3,7 +3,7 @@
 
 namespace facetmill::help::transform {
 
-inline constexpr const char* about = R"(Moves, rotates and scales parts; converts units and the up axis.)";
+inline constexpr const char* about = R"(Moves, rotates and scales parts. Converts units and the up axis.)";
 
 inline constexpr const char* details =
     R"(The operations always run in this order: unit and up (for the whole scene), scale, rotate, matrix,
@@ -13,6 +13,7 @@ All operations work in world space.
 They change the nodes of the parts, not the meshes, unless bake is on.
 Mirrored faces keep their front side, as glTF requires.
 The ground is at 0 along the up axis, or along +Z if the up axis is unknown.
-A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.)";
+A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.
+Cameras and lights of a glTF file move along if all of its parts do.)";
 
 } // namespace facetmill::help::transform

@@ -80,8 +80,8 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.option("ground", &TransformOptions::ground,
              "Moves the parts so that their lowest point along the up axis is at 0.");
     d.option("bake", &TransformOptions::bake,
-             "Applies the transform to the vertices and resets the nodes of the parts. Animated parts are "
-             "skipped.");
+             "Applies the transform to the vertices and removes it from the parts' nodes. Nodes "
+             "with animations, instances, cameras or lights are moved instead.");
 }
 
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {

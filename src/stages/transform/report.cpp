@@ -35,9 +35,9 @@ void warn_of_conversion(const io::Conversion& converted, const TransformOptions&
             "give the up axis when you load the file (load: {up: z})");
 }
 
-void warn_of_animation(const std::string& part, Context& context) {
-    context.warn("W-TRANSFORM", fmt::format("transform: part '{}' is animated and is not baked", part),
-                 "its node was moved instead; merge turns it into a part without animation");
+void warn_of_kept_node(const std::string& part, const char* reason, Context& context) {
+    context.warn("W-TRANSFORM", fmt::format("transform: part '{}' {} and is not baked", part, reason),
+                 "its node has been moved instead");
 }
 
 } // namespace facetmill::transform_stage

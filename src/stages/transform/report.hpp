@@ -16,7 +16,7 @@ void declare_transform_report(DeclareFields<TransformReport>& d);
 
 /// Warns of guesses in the conversion of units or the up axis.
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context);
-/// Warns that a part is not baked.
-void warn_of_animation(const std::string& part, Context& context);
+/// Warns that a part is not baked. reason: "is animated".
+void warn_of_kept_node(const std::string& part, const char* reason, Context& context);
 
 } // namespace facetmill::transform_stage

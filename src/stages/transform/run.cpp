@@ -23,6 +23,15 @@ Transform uniform(double factor) {
     return t;
 }
 
+/// The reason why baking would change what viewers show; null if it would not.
+const char* reason_to_keep_node(const io::PartView& view, bool uneven_thickness) {
+    if (view.animated) return "is animated";
+    if (view.instanced) return "has several instances";
+    if (view.shares_node) return "has a camera, a light or another extension at its node";
+    if (uneven_thickness) return "has a material with a thickness and a scale that differs by direction";
+    return nullptr;
+}
+
 class Mover {
   public:
     /// The box of the only part after a transform, for a scene whose mesh is not in memory.
@@ -42,6 +51,8 @@ class Mover {
         if (!o_.translate.empty()) move(moved(translation()));
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
+        if (scene_.parts.empty() && !all_.identity())
+            context_.warn("W-TRANSFORM", "transform: the scene has no meshes, so no node is moved");
         if (o_.bake) bake();
         return {all_, converted.factor, fit, to_string(scene_.unit), to_string(scene_.up)};
     }
@@ -106,24 +117,37 @@ class Mover {
 
     void move(const Transform& t) {
         all_ = t * all_;
-        for (Part& part : scene_.parts) {
+        const double growth = io::length_growth(t);
+        std::vector<io::LengthGrowth> lengths(scene_.parts.size());
+        std::vector<bool> moved(lengths.size());
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            Part& part = scene_.parts[i];
             if (!context_.selects(part, scene_)) continue;
+            moved[i] = true;
             part.transform = t * part.transform;
+            lengths[i] = {part.skinned ? growth : 1, growth};
         }
+        io::scale_material_lengths(scene_, lengths);
+        io::move_cameras_and_lights(scene_, moved, t);
     }
 
-    /// Animated parts keep their node, because the animation would move baked points around the wrong
-    /// origin.
+    /// Parts whose node has another purpose keep it: an animation would move baked points about another
+    /// origin, and instances would be turned and scaled about it.
     void bake() {
-        const auto animated = io::animated_parts(scene_);
+        const auto views = io::part_views(scene_);
+        const auto thick = io::thicknesses(scene_);
+        std::vector<io::LengthGrowth> lengths(scene_.parts.size());
         context_.for_each_part(scene_, [&](Part& part) {
-            if (animated[static_cast<std::size_t>(&part - scene_.parts.data())])
-                warn_of_animation(part.name, context_);
-            else if (!part.skinned) {
-                apply(part.mesh, part.transform);
-                part.transform = {};
-            }
+            const auto i = static_cast<std::size_t>(&part - scene_.parts.data());
+            if (part.skinned) return;
+            const bool uneven = !thick[i].empty() && !io::grows_evenly(part.transform);
+            if (const char* reason = reason_to_keep_node(views[i], uneven))
+                return warn_of_kept_node(part.name, reason, context_);
+            apply(part.mesh, part.transform);
+            lengths[i].mesh = io::length_growth(part.transform);
+            part.transform = {};
         });
+        io::scale_material_lengths(scene_, lengths);
     }
 
     Scene& scene_;

@@ -20,12 +20,12 @@ struct TriangulateOptions {
 void declare(Declare<TriangulateOptions>& d) {
     d.choice<To>("to", &TriangulateOptions::to,
                  {{"triangles", To::triangles, "every face becomes triangles"},
-                  {"quads", To::quads, "then pairs of triangles become quads, the most square pairs first"}},
-                 "What faces are turned into.")
+                  {"quads", To::quads, "pairs of triangles then become quads, the most square pairs first"}},
+                 "The faces to make.")
         .primary();
     d.option("feature_angle", &TriangulateOptions::feature_angle,
-             "With to: quads, edges whose dihedral angle is larger than this are features and are kept (an "
-             "angle between the normals of the two faces).")
+             "With to: quads, keeps feature edges. An edge is a feature if the normals of its two faces "
+             "differ by more than this angle.")
         .between(0, 90);
 }
 
@@ -41,12 +41,12 @@ struct TriangulateReport {
 };
 
 void declare_part(DeclareFields<TriangulatedPart>& d) {
-    d.field("part", &TriangulatedPart::part, "Its name.");
+    d.field("part", &TriangulatedPart::part, "The name of the part.");
     d.object("faces", &TriangulatedPart::kinds, "The faces of the input.", declare_face_kinds);
     d.field("cut", &TriangulatedPart::cut, "Faces that were cut into triangles.");
-    d.field("fans", &TriangulatedPart::fans, "Those that were cut as fans, which may overlap.");
+    d.field("fans", &TriangulatedPart::fans, "Faces that were cut as fans, which may overlap.");
     d.field("filled", &TriangulatedPart::filled,
-            "Those that intersect themselves and were filled by winding number.");
+            "Self-intersecting faces that were filled by winding number.");
     d.field("quads", &TriangulatedPart::quads, "Pairs of triangles that became quads.")
         .only_when("quads are requested");
     d.field("triangles", &TriangulatedPart::triangles, "Triangles that remain.")
@@ -54,7 +54,7 @@ void declare_part(DeclareFields<TriangulatedPart>& d) {
 }
 
 void declare_report(DeclareFields<TriangulateReport>& d) {
-    d.list("parts", &TriangulateReport::parts, "Each part that was triangulated.", declare_part);
+    d.list("parts", &TriangulateReport::parts, "Each triangulated part.", declare_part);
 }
 
 Scene run(Scene scene, const TriangulateOptions& o, Context& context, TriangulateReport& report) {

@@ -16,9 +16,9 @@ struct TwoSidedOptions {
 
 void declare(Declare<TwoSidedOptions>& d) {
     d.choice<By>("by", &TwoSidedOptions::by,
-                 {{"faces", By::faces, "every face is added once more, in reversed order"},
-                  {"material", By::material, "materials are marked double-sided; faces stay as they are"}},
-                 "How the back becomes visible.")
+                 {{"faces", By::faces, "add every face once more, in reversed order"},
+                  {"material", By::material, "mark materials as double-sided; faces stay unchanged"}},
+                 "How to make the back visible.")
         .primary();
 }
 
@@ -36,10 +36,10 @@ void declare_report(DeclareFields<TwoSidedReport>& d) {
     d.field("marked_materials", &TwoSidedReport::marked_materials,
             "Materials that were not double-sided before.")
         .only_when("by: material");
-    d.list("parts", &TwoSidedReport::parts, "Each part whose faces were duplicated.",
+    d.list("parts", &TwoSidedReport::parts, "Each part with duplicate faces.",
            [](DeclareFields<DoubledPart>& p) {
-               p.field("part", &DoubledPart::part, "Its name.");
-               p.field("new_faces", &DoubledPart::new_faces, "Faces in reversed order that were added.");
+               p.field("part", &DoubledPart::part, "The name of the part.");
+               p.field("new_faces", &DoubledPart::new_faces, "Added faces in reversed order.");
            })
         .only_when("by: faces");
 }

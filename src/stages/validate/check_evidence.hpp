@@ -18,7 +18,7 @@ constexpr std::size_t max_evidence = 10;
 /// their names.
 [[nodiscard]] report::CheckEvidence evidence_against(const Scene& scene, const Assertion& assertion);
 
-/// The same evidence, limited to locations with these keys (ascending).
+/// The evidence at only the locations with these keys (ascending).
 [[nodiscard]] report::CheckEvidence evidence_among(const Scene& scene, const Assertion& assertion,
                                                    const std::vector<std::uint64_t>& keys);
 

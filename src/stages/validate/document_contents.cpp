@@ -72,18 +72,6 @@ std::vector<DocumentImage> images_of(const Scene& scene) {
     return images;
 }
 
-std::vector<DocumentBytes> bytes_of(const Scene& scene) {
-    std::vector<DocumentBytes> all;
-    for (const auto& d : scene.documents) {
-        if (!d) continue;
-        all.push_back({d->name + ": JSON", d->json.size()});
-        for (std::size_t i = 0; i < d->buffers.size(); ++i)
-            all.push_back({fmt::format("{}: buffer {}", d->name, i), d->buffers[i].size()});
-        for (const auto& [uri, bytes] : d->files) all.push_back({uri, bytes.size()});
-    }
-    return all;
-}
-
 std::vector<DocumentExtension> extensions_of(const Scene& scene) {
     std::set<std::pair<std::string, std::string>> used;
     for (const auto& d : scene.documents)

@@ -1,5 +1,5 @@
 #pragma once
-// The contents of glTF documents besides meshes: images, bytes, extensions.
+// The contents of glTF documents besides meshes: images and extensions.
 
 #include "mesh/scene.hpp"
 
@@ -16,13 +16,6 @@ struct DocumentImage {
 };
 /// All images in the documents' lists, and image files outside these lists.
 [[nodiscard]] std::vector<DocumentImage> images_of(const Scene& scene);
-
-/// Part of a document's size: its JSON, a buffer, or a separate image.
-struct DocumentBytes {
-    std::string name; ///< "body.glb: JSON", "body.glb: buffer 0", "wood.png"
-    std::size_t bytes = 0;
-};
-[[nodiscard]] std::vector<DocumentBytes> bytes_of(const Scene& scene);
 
 /// An extension that a document lists as used.
 struct DocumentExtension {

@@ -4,14 +4,27 @@
 namespace facetmill::help::validate {
 
 inline constexpr const char* about =
-    R"(Checks the mesh: each given property is an assertion, and a failed assertion fails the run.)";
+    R"(Checks the mesh. Each given property is an assertion, and a failed assertion fails the run.)";
 
 inline constexpr const char* details =
     R"(You give each property a bound: a value (euler: 2), true or false (closed: true), or a range (faces:
 {max: 5000}, min_angle: {min: 5deg}).
-`for` adds the assertions for a purpose, and your own values take precedence.
+The option `for` adds the assertions for a purpose, and your own values take precedence.
 Without any property or purpose, the mesh must be closed, edge-manifold, vertex-manifold, oriented,
 free of degenerate faces, and not empty.
+
+After `write`, the stage reads back and checks each file that holds the current scene, in the units
+and axes of the scene.
+The stage checks the scene itself if a stage changed it after `write`, or if no file holds all parts.
+It also checks the scene instead of tilesets and of meshes in cells.
+The report names the file of each check.
+The limits bytes, draw_calls and texture_pixels apply to each file written before, also in branches
+and in foreach.
+They need a `write` before them (E-LIMITS).
+
+After a check with a purpose (for) passes, `write` keeps the same scene fit for it.
+It repairs faults from 32-bit floats and reads the file back.
+The run fails (exit 1) if the file does not fit.
 
 All assertions are checked.
 For each failure, the stage reports the number of faulty elements and the positions of the first or
@@ -21,8 +34,8 @@ Angles are in degrees.
 The mesh passes on unchanged.
 
 A baseline lets you introduce checks on existing assets.
-`baseline: known.json` with update_baseline (or run --update-baseline) writes the current failures
-to the file.
+The option `baseline: known.json` with update_baseline (or run --update-baseline) writes the current
+failures to the file.
 Later runs without update_baseline waive these known failures, and new failures fail the run.
 
 A failure is identified by its check, its part and its locations.
@@ -40,14 +53,15 @@ A baseline stores up to 50000 locations per check.
 Beyond that, it stores a sample and one combined key, which detects changed locations even if their
 number is the same.
 
-`self_intersections` and `touching` are separate counts.
+The properties `self_intersections` and `touching` are separate counts.
 Faces intersect if they meet in the interior of a face, or pass through each other at their edges.
 Faces touch if they meet only at edges and corners.
 For example, clean leaves touching faces when it separates an edge with four faces.
 Slicers accept touching faces, and so does `for: printing`.
 Use `touching: 0` to forbid them.
 
-`euler: 2` is a common test for closed surfaces, but it is only valid for one component of genus 0.
+The assertion `euler: 2` is a common test for closed surfaces, but it is only valid for one
+component of genus 0.
 A closed component of genus g has V - E + F = 2 - 2g, and components add up.
 Use `closed: true` to test for closed surfaces in every case.
 

@@ -1,16 +1,20 @@
 #include "stages/validate/judge.hpp"
 
 #include "base/progress.hpp"
+#include "base/text/words.hpp"
 #include "geometry/clean/clean.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "io/codec.hpp"
 #include "mesh/topology.hpp"
 #include "stage/context.hpp"
+#include "stage/read_written.hpp"
 #include "stages/validate/check_evidence.hpp"
 #include "stages/validate/failed_copy.hpp"
 #include "stages/validate/known_failures.hpp"
 
 #include <fmt/format.h>
 #include <span>
+#include <utility>
 
 namespace facetmill::validate_stage {
 
@@ -41,16 +45,76 @@ class Judge {
     }
 
     ValidateReport run(Scene& scene) {
+        s_.assertions = resolved(std::move(s_.assertions), scene, context_);
+        const SceneTrail& trail = context_.trail();
+        require_written(s_.limits, context_);
+        std::vector<std::string> judged, not_judged;
+        for (const WrittenScene& file : trail.written) {
+            const bool holds_it = file.scene == trail.scene && judge_file(file, scene);
+            (holds_it ? judged : not_judged).push_back(file.path);
+            if (file.scene != trail.scene) judge_limits_of(file, scene);
+        }
+        file_.clear();
+        if (judged.empty()) judge_scene(scene);
+        if (s_.assertions.all.empty()) not_judged.clear();
+        if (!judged.empty())
+            context_.say(fmt::format("checked the written file, read back: {}", join_texts(judged)));
+        else if (!not_judged.empty())
+            context_.say(fmt::format("checked the scene in memory, not {}", join_texts(not_judged)));
+        finish();
+        report_.fails = any_;
+        return report_;
+    }
+
+  private:
+    std::vector<std::size_t> selected_of(const Scene& scene) const {
         std::vector<std::size_t> selected;
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             if (context_.selects(scene.parts[i], scene)) selected.push_back(i);
-        for (const Part& part : scene.parts) flags_.emplace_back(part.mesh.face_count(), 0);
-        s_.assertions = resolved(std::move(s_.assertions), scene, context_);
-        for (auto& limit : check_limits(s_.limits, scene)) {
+        return selected;
+    }
+
+    /// Judges a file of the current scene. Returns false if the file does not hold all that is to be judged.
+    bool judge_file(const WrittenScene& file, const Scene& scene) {
+        if (io::codec_named(file.format)->can.tiles) { // levels of detail repeat the surface
+            judge_limits_of(file, scene);
+            return false;
+        }
+        Scene there = read_written(file, scene, context_);
+        file_ = file.path;
+        take_limits(LimitsOf::file, {there, records_of(file)});
+        const std::size_t wanted = selected_of(scene).size(), found = selected_of(there).size();
+        if (found == 0 && wanted > 0) return false; // the file does not keep the names that `only` gives
+        judge_scene(there);
+        return file.is_whole && (wanted == scene.parts.size() || wanted == found);
+    }
+
+    void judge_limits_of(const WrittenScene& file, const Scene& scene) {
+        if (s_.limits.of_files().empty()) return;
+        const Scene there = s_.limits.need_contents() ? read_written(file, scene, context_) : Scene{};
+        file_ = file.path;
+        take_limits(LimitsOf::file, {there, records_of(file)});
+    }
+
+    std::span<const report::FileRecord> records_of(const WrittenScene& file) const {
+        return std::span(context_.output_records()).subspan(file.first_record, file.records);
+    }
+
+    void take_limits(LimitsOf of, const Limited& limited) {
+        for (auto& limit : check_limits(s_.limits, of, limited)) {
+            limit.check.file = file_;
             Failure failure = failure_of(limit.check, {}, std::move(limit.keys));
             const auto verdict = known_.judge(failure);
             take(std::move(limit.check), std::move(failure), verdict);
         }
+    }
+
+    void judge_scene(Scene& scene) {
+        const std::vector<std::size_t> selected = selected_of(scene);
+        flags_.clear();
+        for (const Part& part : scene.parts) flags_.emplace_back(part.mesh.face_count(), 0);
+        flagged_ = false;
+        take_limits(LimitsOf::scene, {scene});
         if (s_.per == Per::scene) {
             const ProgressScope all_of_it(0, 1);
             with_parts(scene, selected, [&](const Scene& all) {
@@ -71,11 +135,9 @@ class Judge {
                 judge_components(scene, i);
                 steps.next();
             }
-        finish(scene);
-        return report_;
+        if (s_.mark && flagged_ && !std::exchange(marked_, true)) write_failed_copy(scene, flags_, *s_.mark);
     }
 
-  private:
     /// The subject of a check, and the numbers of its parts and faces in the scene.
     struct Subject {
         std::string name;            ///< the displayed name; components are numbered
@@ -99,6 +161,7 @@ class Judge {
             report::Check& check = checks[i];
             const Assertion& assertion = s_.assertions.all[i];
             check.part = subject.name;
+            check.file = file_;
             if (check.passed) {
                 take(std::move(check), {}, {});
                 continue;
@@ -182,6 +245,7 @@ class Judge {
             waived_locations_ += failure.locations() - (s_.update_baseline ? 0 : verdict.fresh);
             any_known_ = any_known_ || verdict.known;
             any_ = any_ || !check.passed;
+            flagged_ = flagged_ || !check.passed;
             failed_.add(std::move(failure));
         }
         const bool passed = check.passed;
@@ -189,15 +253,14 @@ class Judge {
         return passed;
     }
 
-    void finish(const Scene& scene) {
+    void finish() {
         if (s_.update_baseline) failed_.write(context_.outputs(), *s_.baseline);
-        if (s_.mark && any_) write_failed_copy(scene, flags_, *s_.mark);
         if (s_.baseline) tell_of_baseline();
     }
 
     void tell_of_baseline() {
         const auto gone = known_.gone(failed_);
-        report_ = {waived_, waived_locations_, gone.failures, gone.locations, any_};
+        report_ = {waived_, waived_locations_, gone.failures, gone.locations};
         if (known_.size() > 0 && any_ && !any_known_)
             context_.warn(
                 "W-BASELINE",
@@ -210,7 +273,10 @@ class Judge {
     KnownFailures known_, failed_;
     ValidateReport report_;
     std::size_t waived_ = 0, waived_locations_ = 0;
+    std::string file_;                              ///< that is judged; empty: the scene
     bool any_ = false;                              ///< a failure was not waived
+    bool flagged_ = false;                          ///< the same, in the scene that is judged
+    bool marked_ = false;                           ///< the copy is written
     bool any_known_ = false;                        ///< a failure was already known
     std::vector<std::vector<std::uint32_t>> flags_; ///< flags of the parts' faces
 };

@@ -1,6 +1,7 @@
 #include "stages/validate/profiles.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace facetmill::validate_stage {
 
@@ -65,6 +66,19 @@ Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits
         if (!known) given.all.push_back({name, bound, where, profile == Profile::web});
     }
     return given;
+}
+
+Purpose purpose_of(const Assertions& given, Profile profile, const Mark& where) {
+    const Rows rows = rows_of(profile);
+    Purpose purpose;
+    for (Assertion& assertion : profiled(given, profile, {}, where).all)
+        if (std::any_of(rows.begin(), rows.end(),
+                        [&](const auto& row) { return row.first == assertion.property; }))
+            purpose.assertions.all.push_back(std::move(assertion));
+    constexpr std::array names{"none", "solid", "printing", "web", "simulation"}; // as declared
+    purpose.name = names[static_cast<std::size_t>(profile)];
+    purpose.is_solid = profile != Profile::web;
+    return purpose;
 }
 
 } // namespace facetmill::validate_stage

@@ -1,7 +1,7 @@
 #pragma once
 // Named sets of assertions for the purposes of a mesh.
 
-#include "stage/assertions.hpp"
+#include "stage/purpose.hpp"
 #include "stages/validate/scene_limits.hpp"
 
 namespace facetmill::validate_stage {
@@ -30,5 +30,8 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
 /// of a sound solid.
 [[nodiscard]] Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits,
                                   const Mark& where);
+
+/// The purpose of that profile for the stages that follow, with the bounds that override it. Not none.
+[[nodiscard]] Purpose purpose_of(const Assertions& given, Profile profile, const Mark& where);
 
 } // namespace facetmill::validate_stage

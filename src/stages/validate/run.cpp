@@ -6,6 +6,7 @@
 #include "stages/validate/profiles.hpp"
 #include "stages/validate/scene_limits.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::validate_stage {
@@ -81,6 +82,11 @@ Scene run(Scene scene, const ValidateOptions& o, Context& context, ValidateRepor
     if (o.mark) s.mark = context.places().output(o.mark->text);
     s.update_baseline = o.update_baseline;
     report = judge(scene, std::move(s), context);
+    if (o.profile != Profile::none && o.severity == Severity::error && !report.fails && !o.baseline &&
+        std::all_of(scene.parts.begin(), scene.parts.end(),
+                    [&](const Part& part) { return context.selects(part, scene); }))
+        context.found_fit(
+            std::make_shared<const Purpose>(purpose_of(o.assertions, o.profile, context.where())));
     return scene;
 }
 
@@ -97,13 +103,15 @@ struct ValidateStage : StageOf<run> {
                          "add baseline: known.json");
         if (o.mark) verify_failed_copy(o.mark->text, given, problems);
     }
+    std::string judges_written() const override { return o.limits.of_files(); }
     void on_cells(CellFlow& flow, Context& context) const override {
-        judge_cells(profiled(o.assertions, o.profile, o.limits, context.where()), o.severity, flow, context);
+        judge_cells(profiled(o.assertions, o.profile, o.limits, context.where()), o.limits, o.severity, flow,
+                    context);
         const ValidateReport report;
         context.report(*info->result, &report);
     }
     std::optional<std::string> why_not_on_cells() const override {
-        if (o.limits.any()) return "limits need the whole scene";
+        if (o.limits.need_whole_scene()) return "limits other than bytes need the whole scene";
         if (o.per == Per::component) return "per: component needs the whole mesh in memory";
         if (o.baseline || o.mark) return "baseline and mark need the whole mesh in memory";
         return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));
@@ -119,6 +127,7 @@ const RegisterStage registered = make_stage<ValidateStage>(
                   "validate: {for: web, faces: {max: 5000}, baseline: known.json}",
                   "validate: {min_angle: {min: 5deg}, severity: warn, mark: failed.glb}"},
      .checks = true,
+     .keeps_scene = true,
      .lines = LinesPolicy::work,
      .roles = {.baseline = "baseline", .updates_baseline = "update_baseline"}},
     declare, declare_report);

@@ -3,6 +3,7 @@
 #include "base/math/random.hpp"
 #include "base/text/glob.hpp"
 #include "base/text/words.hpp"
+#include "mesh/primitives_in_use.hpp"
 #include "report/contents.hpp"
 #include "stage/assertions.hpp"
 #include "stages/validate/check_evidence.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::validate_stage {
 
@@ -85,30 +87,48 @@ LimitCheck check_limit(const char* name, const std::vector<std::string>& pattern
     return limit;
 }
 
-std::vector<Share> parts_of(const Scene& scene) {
+std::vector<Share> parts_of(const Limited& l) {
     std::vector<Share> shares;
-    for (const auto& part : scene.parts) shares.push_back({{.of = Of::part, .name = part.name}});
+    for (const auto& part : l.scene.parts) shares.push_back({{.of = Of::part, .name = part.name}});
     return shares;
 }
 
-std::vector<Share> materials_of(const Scene& scene) {
+std::vector<Share> materials_of(const Limited& l) {
     std::vector<Share> shares;
-    for (const auto& m : scene.materials) shares.push_back({{.of = Of::material, .name = m.name}});
+    for (const auto& m : l.scene.materials) shares.push_back({{.of = Of::material, .name = m.name}});
     return shares;
 }
 
-std::vector<Share> documents_bytes(const Scene& scene) {
+std::vector<Share> bytes_of(const Limited& l) {
     std::vector<Share> shares;
-    for (const auto& b : bytes_of(scene))
+    for (const auto& file : l.files)
+        shares.push_back({{.of = Of::bytes,
+                           .name = file.path,
+                           .amount = static_cast<double>(file.bytes),
+                           .is_count = true},
+                          file.bytes});
+    return shares;
+}
+
+/// Each primitive of a node is a draw call; the instances of a node share it.
+std::vector<Share> draw_calls_of(const Limited& l) {
+    std::vector<Share> shares;
+    std::set<std::pair<int, int>> drawn;
+    for (const auto& part : l.scene.parts) {
+        if (part.node >= 0 && !drawn.emplace(part.document, part.node).second) continue;
+        const auto used = primitives_in_use(part.mesh);
+        const auto calls = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+        const std::size_t amount = std::max(calls, std::size_t{part.mesh.vertex_count() > 0});
         shares.push_back(
-            {{.of = Of::bytes, .name = b.name, .amount = static_cast<double>(b.bytes), .is_count = true},
-             b.bytes});
+            {{.of = Of::part, .name = part.name, .amount = static_cast<double>(amount), .is_count = true},
+             amount});
+    }
     return shares;
 }
 
-std::vector<Share> texture_pixels(const Scene& scene) {
+std::vector<Share> texture_pixels(const Limited& l) {
     std::vector<Share> shares;
-    for (const auto& i : images_of(scene))
+    for (const auto& i : images_of(l.scene))
         shares.push_back({{.of = Of::image,
                            .name = i.name,
                            .width = i.width,
@@ -119,15 +139,15 @@ std::vector<Share> texture_pixels(const Scene& scene) {
     return shares;
 }
 
-std::vector<Word> names_of(const Scene& scene) {
+std::vector<Word> names_of(const Limited& l) {
     std::vector<Word> words;
-    for (const auto& part : scene.parts) words.push_back({part.name, {.of = Of::part, .name = part.name}});
+    for (const auto& part : l.scene.parts) words.push_back({part.name, {.of = Of::part, .name = part.name}});
     return words;
 }
 
-std::vector<Word> extension_names(const Scene& scene) {
+std::vector<Word> extension_names(const Limited& l) {
     std::vector<Word> words;
-    for (const auto& e : extensions_of(scene))
+    for (const auto& e : extensions_of(l.scene))
         words.push_back({e.name, {.of = Of::extension, .name = e.name, .document = e.document}});
     return words;
 }
@@ -136,12 +156,13 @@ std::vector<Word> extension_names(const Scene& scene) {
 template <class Given, class Entry>
 struct Limit {
     const char* name;
+    LimitsOf of;
     Given SceneLimits::*given;
     const char* help;
-    std::vector<Entry> (*entries)(const Scene& scene);
+    std::vector<Entry> (*entries)(const Limited&);
 };
 template <class Given, class Entry>
-Limit(const char*, Given SceneLimits::*, const char*, std::vector<Entry> (*)(const Scene&))
+Limit(const char*, LimitsOf, Given SceneLimits::*, const char*, std::vector<Entry> (*)(const Limited&))
     -> Limit<Given, Entry>;
 
 /// Calls look with each limit. The limits are not in property_table, because patterns are not numbers, and
@@ -149,17 +170,25 @@ Limit(const char*, Given SceneLimits::*, const char*, std::vector<Entry> (*)(con
 template <class Look>
 void each_limit(Look&& look) {
     using L = SceneLimits;
-    look(Limit{"parts", &L::parts, "The number of parts. A bare number is the maximum (10).", parts_of});
-    look(Limit{"materials", &L::materials, "The number of materials.", materials_of});
-    look(Limit{"bytes", &L::documents_bytes,
-               "The size of the glTF documents as loaded, with buffers and images. Give a number of bytes, "
-               "or a unit: 10MB or 500kB (1000 bytes each), or 1.5MiB, 500KiB or 500K (1024 bytes each).",
-               documents_bytes});
-    look(Limit{"texture_pixels", &L::texture_pixels,
-               "The total number of pixels in all PNG, JPEG and WebP images.", texture_pixels});
-    look(Limit{"names", &L::names, "Patterns for part names. The name of every part must match one of them.",
-               names_of});
-    look(Limit{"extensions", &L::extensions, "Names or patterns of the allowed glTF extensions.",
+    constexpr LimitsOf scene = LimitsOf::scene, file = LimitsOf::file;
+    look(Limit{"parts", scene, &L::parts, "The number of parts. A bare number is the maximum (10).",
+               parts_of});
+    look(Limit{"materials", scene, &L::materials, "The number of materials.", materials_of});
+    look(Limit{
+        "bytes", file, &L::bytes,
+        "The size of each file written before this check, with its buffers and images. Give a number of "
+        "bytes, or a unit: 10MB or 500kB (1000 bytes each), or 1.5MiB, 500KiB or 500K (1024 bytes each).",
+        bytes_of});
+    look(Limit{"draw_calls", file, &L::draw_calls,
+               "The number of draw calls (primitives of nodes) in each file written before this check.",
+               draw_calls_of});
+    look(Limit{"texture_pixels", file, &L::texture_pixels,
+               "The total number of pixels in all PNG, JPEG and WebP images of each file written before "
+               "this check.",
+               texture_pixels});
+    look(Limit{"names", scene, &L::names,
+               "Patterns for part names. The name of every part must match one of them.", names_of});
+    look(Limit{"extensions", scene, &L::extensions, "Names or patterns of the allowed glTF extensions.",
                extension_names});
 }
 
@@ -181,11 +210,35 @@ void declare_limits(Declare<SceneLimits>& d) {
     each_limit([&](const auto& limit) { d.option(limit.name, limit.given, limit.help); });
 }
 
-std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene) {
+bool SceneLimits::need_whole_scene() const {
+    SceneLimits others = *this;
+    others.bytes.reset();
+    return others.any();
+}
+
+std::string SceneLimits::of_files() const {
+    std::string first;
+    each_limit([&](const auto& limit) {
+        if (first.empty() && limit.of == LimitsOf::file && is_given(this->*limit.given))
+            first = fmt::format("limits.{}", limit.name);
+    });
+    return first;
+}
+
+void require_written(const SceneLimits& limits, const Context& context) {
+    const std::string option = limits.of_files();
+    if (option.empty() || !context.trail().written.empty()) return;
+    throw Error(ErrorKind::stage, "E-LIMITS",
+                fmt::format("'{}' limits written files, and no file was written before it", option),
+                "give validate the same `when` as write", context.where());
+}
+
+std::vector<LimitCheck> check_limits(const SceneLimits& limits, LimitsOf of, const Limited& of_what) {
     std::vector<LimitCheck> checks;
     each_limit([&](const auto& limit) {
         const auto& given = limits.*limit.given;
-        if (is_given(given)) checks.push_back(check_limit(limit.name, given, limit.entries(scene)));
+        if (limit.of == of && is_given(given))
+            checks.push_back(check_limit(limit.name, given, limit.entries(of_what)));
     });
     return checks;
 }

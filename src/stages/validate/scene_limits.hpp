@@ -4,15 +4,31 @@
 #include "mesh/scene.hpp"
 #include "options/declaration.hpp"
 #include "report/record.hpp"
+#include "stage/context.hpp"
+
+#include <span>
 
 namespace facetmill::validate_stage {
 
 struct SceneLimits {
-    std::optional<CountLimit> parts, materials, texture_pixels;
-    std::optional<ByteLimit> documents_bytes;
+    std::optional<CountLimit> parts, materials;
+    std::optional<CountLimit> draw_calls, texture_pixels; ///< of a file
+    std::optional<ByteLimit> bytes;                       ///< of a file, with its neighbours
     std::vector<std::string> names;      ///< patterns; every part's name must match at least one
     std::vector<std::string> extensions; ///< allowed glTF extensions; empty: all
     bool any() const;
+    /// The first given limit of files, "limits.bytes"; empty: none.
+    std::string of_files() const;
+    /// Whether a limit other than of bytes is given.
+    bool need_whole_scene() const;
+    /// Whether judging a file needs its scene, not only its size.
+    bool need_contents() const { return draw_calls || texture_pixels; }
+};
+
+/// A scene, or a file with its scene if limits need it.
+struct Limited {
+    const Scene& scene;
+    std::span<const report::FileRecord> files = {}; ///< the file and its neighbours
 };
 
 void declare_limits(Declare<SceneLimits>& d);
@@ -23,8 +39,15 @@ struct LimitCheck {
     std::vector<std::uint64_t> keys = {};
 };
 
-/// A check per limit. A failed check lists at most ten entries as evidence, the largest first: [{part}],
+/// Throws stage (E-LIMITS) if there is a limit of files, and no file was written on the way to the stage.
+void require_written(const SceneLimits& limits, const Context& context);
+
+enum class LimitsOf { scene, file };
+
+/// A check per limit of that kind. A failed check lists at most ten entries as evidence, the largest first:
+/// [{part}],
 /// [{material}], [{image, width, height, amount}], [{bytes_of, amount}], [{extension, document}].
-[[nodiscard]] std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene);
+[[nodiscard]] std::vector<LimitCheck> check_limits(const SceneLimits& limits, LimitsOf of,
+                                                   const Limited& of_what);
 
 } // namespace facetmill::validate_stage

@@ -55,6 +55,19 @@ Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& con
     return {&staged, {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, bytes)}};
 }
 
+/// Records the last files of the outputs for later checks.
+void tell_written(const io::Outputs::File& main, std::size_t files, const std::string& format,
+                  const Scene& outline, Context& context) {
+    const std::size_t first = context.output_records().size() - files;
+    context.wrote({.path = context.output_records()[first].path,
+                   .file = &main,
+                   .format = format,
+                   .unit = outline.unit,
+                   .up = outline.up,
+                   .first_record = first,
+                   .records = files});
+}
+
 /// Writes the cells as a tileset. Each tile is staged as soon as it is made, to limit memory.
 void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, CellFlow& flow,
                    const Scene& outline, WriteReport& report, Context& context) {
@@ -76,6 +89,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
     report.tiles = written.told;
     for (const Diagnostic& w : written.warnings) context.warn(w.id, w.message, w.hint);
     context.attribute_changes(outline.parts.front(), written.changes);
+    tell_written(*staged.front(), staged.size(), codec_of(o)->name, outline, context);
     if (!context.reads_back()) return;
     for (const io::Outputs::File* file : staged) read_again(*file, context);
 }
@@ -152,6 +166,7 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
     const std::string told = std::filesystem::path(o.path.text).lexically_normal().string();
     context.output_records().push_back(
         {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, {})});
+    tell_written(staged, 1, codec.name, outline, context);
     if (context.reads_back()) read_again(staged, context);
     context.report(fields_of<WriteReport>(declare_write_report), &report);
 }

@@ -3,12 +3,14 @@
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
 #include "geometry/normals/tangents.hpp"
+#include "geometry/render/render.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/optimize/document_optimizer.hpp"
 #include "io/packing.hpp"
 #include "io/read_back.hpp"
 
+#include "mesh/equal_meshes.hpp"
 #include "mesh/transform.hpp"
 #include "stages/write/lattice.hpp"
 
@@ -22,6 +24,9 @@ namespace facetmill::write_stage {
 
 namespace {
 
+/// The up axis that pictures assume for a scene without one.
+UpAxis up_in_pictures(const Scene& scene) { return camera_of(scene).up.z > 0 ? UpAxis::z : UpAxis::y; }
+
 /// Joins all parts in world space, as in a plain Draco file.
 Mesh in_one(const Scene& scene) {
     Mesh all;
@@ -30,14 +35,15 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// The fewest bits of each part that give world steps no larger than the scene's longest side divided by
-/// 2^bits. The minimum is 10 bits, about a thousandth of the part, or `bits` if fewer.
-std::vector<int> bits_of_scene(const Scene& scene, int bits) {
+/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
+/// the longest side of what is drawn, in the largest pose. The minimum is 10 bits, about a thousandth of the
+/// part, or `bits` if fewer.
+std::vector<int> bits_of_scene(const Scene& scene, const std::vector<io::PartView>& views, int bits) {
     constexpr int fewest = 10;
-    const double whole = scene.bounds().longest_side();
+    const double whole = io::drawn_bounds(scene, views).longest_side();
     std::vector<int> all;
-    for (const Part& part : scene.parts) {
-        const double own = part.mesh.bounds().longest_side() * greatest_stretch(part.transform);
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const double own = scene.parts[i].mesh.bounds().longest_side() * greatest_stretch(views[i].largest);
         int enough = std::min(fewest, bits);
         const auto steps = [](int n) { return static_cast<double>((std::int64_t{1} << n) - 1); };
         while (enough < bits && own / steps(enough) > whole / steps(bits)) ++enough;
@@ -56,15 +62,13 @@ bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> li
     return enough;
 }
 
-/// Parts that share a mesh get the largest number of bits among them.
-void as_shared(std::vector<int>& bits, const Scene& scene) {
-    std::map<std::pair<int, int>, int> most;
-    const auto key = [&](std::size_t i) {
-        return std::pair(scene.parts[i].document, scene.parts[i].source_mesh);
-    };
-    for (std::size_t i = 0; i < bits.size(); ++i) most[key(i)] = std::max(most[key(i)], bits[i]);
-    for (std::size_t i = 0; i < bits.size(); ++i)
-        if (scene.parts[i].source_mesh >= 0) bits[i] = most[key(i)];
+/// Parts of the same geometry get the largest number of bits among them, so that it is stored once.
+void as_shared(std::vector<int>& bits, const DistinctParts& shapes) {
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+        int& most = bits[shapes.first[i]];
+        most = std::max(most, bits[i]);
+    }
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = bits[shapes.first[i]];
 }
 
 std::string why(int usual, Grid grid, int limit, bool enough) {
@@ -87,9 +91,9 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
                            settings.quantize.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: use precision: full to keep all bits", what);
-    return fmt::format(
-        "the 32-bit floats of {} {}: use clean before write, or write PLY, OBJ or OFF with precision: full",
-        codec.name, what);
+    return fmt::format("the 32-bit floats of {} {}: put clean: {{precision: single, self_intersections: "
+                       "all}} before write, or write PLY, OBJ or OFF with precision: full",
+                       codec.name, what);
 }
 
 /// Explains why a file is less sound than the scene, with a hint.
@@ -128,12 +132,29 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
     if (o.up != UpAxis::unknown && scene.up == UpAxis::unknown)
         throw Error(ErrorKind::stage, "E-UP", "the scene has no up axis, so it cannot be rotated",
                     "give the up axis when you load it: load: {path: ..., up: z}", context.where());
+    const UpAxis seen = scene.up == UpAxis::unknown && target.up != UpAxis::unknown && scene.face_count() > 0
+                            ? up_in_pictures(scene)
+                            : target.up;
     const io::Conversion done = io::convert(scene, target);
     if (done.unit_guessed)
         context.warn("W-UNITS",
                      fmt::format("the scene has no unit: '{}' gets its numbers unchanged, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
-                     "give both when you load it: load: {path: ..., unit: mm, up: z}");
+                     "give both when you load it: load: {path: ..., unit: mm, up: z}, or -D unit=mm -D up=z "
+                     "for a built-in pipeline");
+    if (scene.parts.empty() && (done.factor != 1 || done.turned))
+        context.warn("W-TRANSFORM",
+                     fmt::format("the scene has no meshes: the nodes in '{}' keep the numbers of the input",
+                                 o.path.text),
+                     "load it without unit and up");
+    if (seen != target.up)
+        context.warn("W-UP",
+                     fmt::format("the scene has no up axis: '{}' keeps its axes, and {} means {} up, but the "
+                                 "mesh seems to have {} up",
+                                 o.path.text, codec.name, to_string(target.up), to_string(seen)),
+                     fmt::format("give it when you load it: load: {{path: ..., up: {}}}, or -D up={} of a "
+                                 "built-in pipeline; up: {} if it does not lie on its side",
+                                 to_string(seen), to_string(seen), to_string(target.up)));
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
 }
@@ -167,7 +188,7 @@ double moved_by_floats(const Scene& scene) {
 bool needs_full(double rounding, const Box& bounds, Context& context) {
     if (rounding <= tolerable_rounding * diagonal(bounds)) return false;
     context.say(fmt::format("positions are written with 64 bits, because float32 would move them by up to "
-                            "{:.2g} (precision: single does)",
+                            "{:.2g} (precision: single writes float32)",
                             rounding));
     return true;
 }
@@ -213,25 +234,27 @@ bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o) {
 
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report) {
-    if (!s.draco.on && !s.quantize.on) return;
+    if ((!s.draco.on && !s.quantize.on) || scene.parts.empty()) return;
     const int usual = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
     const bool given = bits_are_given(s, o);
-    const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::scene
+    const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::even
                       : o.quantize ? o.quantize->grid
-                                   : Grid::scene;
+                                   : Grid::even;
     const std::optional<int> limit = given ? std::nullopt : std::optional(s.draco.on ? 24 : 16);
     s.tiles.given_bits = given;
     if (codec.can.tiles) return; // tilesets choose a common grid: io/tileset/frame.hpp
     bool enough = true;
     if (codec.can.transforms) {
-        s.part_bits =
-            grid == Grid::mesh ? std::vector<int>(scene.parts.size(), usual) : bits_of_scene(scene, usual);
+        const std::vector<io::PartView> views = io::part_views(scene);
+        s.part_bits = grid == Grid::mesh ? std::vector<int>(scene.parts.size(), usual)
+                                         : bits_of_scene(scene, views, usual);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
-        as_shared(s.part_bits, scene);
+        const DistinctParts shapes = distinct_geometry(scene);
+        as_shared(s.part_bits, shapes);
         if (grid == Grid::even) {
-            EvenGrid even =
-                even_grid(scene, s.part_bits, usual, limit.value_or(usual), io::animated_parts(scene));
+            const BitLimits limits{usual, limit.value_or(usual), s.draco.on};
+            EvenGrid even = even_grid(scene, shapes, s.part_bits, limits, views);
             s.part_bits = std::move(even.bits);
             s.lattices = std::move(even.lattices);
         }
@@ -248,8 +271,9 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     (s.draco.on ? report.draco : report.quantize) = bits;
 }
 
-void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
-                 const Scene& scene, const io::WriteSettings& settings, Context& context) {
+WrittenScene stage_files(const io::Written& written, const std::filesystem::path& path,
+                         const io::Codec& codec, const Scene& scene, const io::WriteSettings& settings,
+                         Context& context) {
     const io::Outputs::File* main = nullptr;
     const std::size_t first = context.output_records().size();
     ProgressSteps steps({1, 3});
@@ -274,7 +298,14 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
              {},
              io::byte_kinds(told, staged.bytes, packed.empty() ? io::Span(file.bytes) : io::Span{})});
     }
-    if (!main || !context.reads_back()) return;
+    const WrittenScene staged{.path = context.output_records()[first].path,
+                              .file = main,
+                              .format = codec.name,
+                              .unit = scene.unit,
+                              .up = scene.up,
+                              .first_record = first,
+                              .records = context.output_records().size() - first};
+    if (!context.reads_back()) return staged;
     steps.next();
     const io::ReadBack back = io::read_back(context.outputs().staged(*main), codec, scene, settings, written);
     context.output_records()[first].read_back = back.json();
@@ -284,13 +315,15 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
                                  fmt::join(back.losses, ", ")),
                      reason(back, codec, settings));
     if (back.too_far_for_floats())
-        context.warn("W-ROUNDED",
-                     fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are {:.2g} apart "
-                                 "so far from the origin (the diagonal is {:.4g})",
-                                 path.string(), back.position_error, back.float_step, back.diagonal),
-                     codec.can.full_precision && !settings.double_positions
-                         ? "precision: full keeps all digits"
-                         : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
+        context.warn(
+            "W-ROUNDED",
+            fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are {:.2g} apart so far "
+                        "from the origin (the diagonal is {:.4g})",
+                        path.string(), back.position_error, back.float_step, back.diagonal),
+            codec.can.full_precision && !settings.double_positions
+                ? "precision: full keeps all digits"
+                : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
+    return staged;
 }
 
 } // namespace facetmill::write_stage

@@ -12,7 +12,7 @@ struct WriteReport {
         std::string why;
     };
     std::optional<double> factor;
-    std::optional<std::string> up;
+    std::optional<std::string> up, fits;
     std::optional<Bits> draco, quantize;
     std::optional<OriginReport> origin;
     std::optional<io::VertexCacheUse> order;
@@ -49,9 +49,10 @@ bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o);
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report);
 
-/// Stages the files and reads the first file back. The first file gets the pipeline's path; the others go
-/// into the same folder. Warns if the file read back is less sound than the scene.
-void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
-                 const Scene& scene, const io::WriteSettings& settings, Context& context);
+/// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go
+/// into the same folder. Warns if the file read back is less sound than the scene. written: it has a file.
+[[nodiscard]] WrittenScene stage_files(const io::Written& written, const std::filesystem::path& path,
+                                       const io::Codec& codec, const Scene& scene,
+                                       const io::WriteSettings& settings, Context& context);
 
 } // namespace facetmill::write_stage

@@ -4,8 +4,7 @@
 namespace facetmill::help::write {
 
 inline constexpr const char* about =
-    R"(Writes the scene to a mesh file.
-The scene itself passes on unchanged.)";
+    R"(Writes the scene to a mesh file. The scene itself passes on unchanged.)";
 
 inline constexpr const char* details =
     R"(Files are first written under temporary names.
@@ -25,7 +24,7 @@ An OBJ file stores its materials in an .mtl file and the images of textures as s
 It supports colour, emission, normals, opacity, highlights, roughness and metalness.
 Roughness and metalness share one image, as in glTF (map_Pr and map_Pm).
 The .mtl also stores the offset, scale and repetition of textures (-o, -s, -clamp).
-load reads all of this back unchanged.
+The stage load reads all of this back unchanged.
 W-TEXTURES and W-MTL list material properties that MTL cannot store, and W-ATTRIBUTE lists
 attributes that OBJ cannot store.
 
@@ -37,7 +36,7 @@ A path that ends in tileset.json, or tiles: 3d, writes 3D Tiles.
 All parts become a single mesh, which is cut and simplified into a tree of GLB files in a folder
 next to the tileset.
 Tiles of different levels fit together.
-`geometricError` is the measured deviation.
+The `geometricError` of tiles is the measured deviation.
 A name that ends in .gz or .zst compresses the file.)";
 
 } // namespace facetmill::help::write

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace facetmill::write_stage {
 
@@ -17,10 +18,10 @@ namespace {
 
 double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
 
-/// The step of the scene's grid: longest side / (2^bits - 1), lengthened by a factor of 1e-4 to 2e-4 so that
-/// the number of steps fits. Five digits keep grid coordinates short.
-double step_of_scene(const Scene& scene, int bits) {
-    const double step = scene.bounds().longest_side() / steps_of(bits) * (1 + 2e-4);
+/// The step of the scene's grid: longest side / (2^bits - 1), made 1e-4 to 2e-4 longer so that the number of
+/// steps fits. It has five digits, so that grid coordinates are short too.
+double step_of_scene(const Box& whole, int bits) {
+    const double step = whole.longest_side() / steps_of(bits) * (1 + 2e-4);
     return parse_real(fmt::format("{:.4e}", step)).value_or(step);
 }
 
@@ -96,6 +97,32 @@ double step_apart(const Part& part, const Box& box, double step, double least, b
     }
 }
 
+/// [parts] also true for parts that share the mesh of a document with a marked one.
+std::vector<bool> with_shared_meshes(const Scene& scene, std::vector<bool> marked) {
+    const auto mesh = [&](std::size_t i) {
+        return std::pair(scene.parts[i].document, scene.parts[i].source_mesh);
+    };
+    std::set<std::pair<int, int>> meshes;
+    for (std::size_t i = 0; i < marked.size(); ++i)
+        if (marked[i]) meshes.insert(mesh(i));
+    for (std::size_t i = 0; i < marked.size(); ++i)
+        marked[i] = marked[i] || (mesh(i).second >= 0 && meshes.contains(mesh(i)));
+    return marked;
+}
+
+/// The box that a part's grid numbers cover, from their origin. Under Draco, parts with a grid of the world
+/// have the box of the whole scene.
+Box box_on_grid(const Part& part, const Box& world, double step, bool in_world, bool draco) {
+    Box box = part.mesh.bounds();
+    const double scale = in_world && draco ? plain_scale(part.transform) : 0;
+    if (scale > 0) {
+        const auto back = [&](const Vec3& p) { return (p - part.transform.point({})) / scale; };
+        return {back(world.min), back(world.max)};
+    }
+    box.min = origin_of(part, box, step, in_world);
+    return box;
+}
+
 /// The fewest bits whose steps of this length cover the given length.
 int bits_for(double length, double step, int most) {
     int bits = 1;
@@ -105,37 +132,36 @@ int bits_for(double length, double step, int most) {
 
 } // namespace
 
-EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
-                   const std::vector<bool>& left) {
+EvenGrid even_grid(const Scene& scene, const DistinctParts& shapes, const std::vector<int>& usual,
+                   const BitLimits& limits, const std::vector<io::PartView>& views) {
     EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
-    const double whole = step_of_scene(scene, bits);
+    const Box world = scene.bounds();
+    const double whole = step_of_scene(io::drawn_bounds(scene, views), limits.usual);
     if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
-    std::map<std::pair<int, int>, std::vector<std::size_t>> users; // the parts that use a mesh of a document
-    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        const Part& part = scene.parts[i];
-        const bool shares = part.document >= 0 && part.source_mesh >= 0;
-        users[shares ? std::pair(part.document, part.source_mesh) : std::pair(-1, static_cast<int>(i))]
-            .push_back(i);
-    }
-    for (const auto& [_, parts] : users) {
-        const bool moved = std::any_of(parts.begin(), parts.end(), [&](std::size_t i) { return left[i]; });
+    std::vector<bool> animated(scene.parts.size());
+    for (std::size_t i = 0; i < animated.size(); ++i) animated[i] = views[i].animated;
+    const std::vector<bool> moves = with_shared_meshes(scene, std::move(animated));
+    std::map<std::pair<std::size_t, bool>, std::vector<std::size_t>> users; // the parts of each shape
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) users[{shapes.first[i], moves[i]}].push_back(i);
+    for (const auto& [key, parts] : users) {
+        const bool moved = key.second;
         double step = HUGE_VAL;
         for (const std::size_t i : parts) {
             const Part& part = scene.parts[i];
             const Box box = part.mesh.bounds();
-            const double own = box.longest_side(), here = whole / stretch_of(part.transform);
+            const double own = box.longest_side(), here = whole / stretch_of(views[i].largest);
             const bool whole_numbers =
                 own / here < 0x1p53 && here > 0; // false if the step is zero or not a number
             if (moved || box.empty() || !whole_numbers) step = 0;
             // Reserve one step at either end for the gap between the origin and the bounds.
-            const double least = own / std::max(steps_of(limit) - 2, 1.0);
+            const double least = own / std::max(steps_of(limits.most) - 2, 1.0);
             if (step > 0) step = std::min(step, step_apart(part, box, here, least, parts.size() == 1));
         }
         for (const std::size_t i : parts) {
             if (!(step > 0)) continue;
-            const Box box = scene.parts[i].mesh.bounds();
-            grid.lattices[i] = {origin_of(scene.parts[i], box, step, parts.size() == 1), step};
-            grid.bits[i] = bits_for(box.longest_side(), step, limit);
+            const Box box = box_on_grid(scene.parts[i], world, step, parts.size() == 1, limits.draco);
+            grid.lattices[i] = {box.min, step};
+            grid.bits[i] = bits_for(box.longest_side(), step, limits.most);
         }
     }
     return grid;

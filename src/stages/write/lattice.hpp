@@ -2,6 +2,8 @@
 // The option `grid: even`: a common step of positions for all parts of a scene.
 
 #include "io/codec.hpp"
+#include "io/gltf/gltf.hpp"
+#include "mesh/equal_meshes.hpp"
 
 #include <vector>
 
@@ -13,13 +15,21 @@ struct EvenGrid {
     std::vector<int> bits;
 };
 
-/// The scene's longest side in the world is divided into 2^bits - 1 steps, which all parts share. If a node
-/// enlarges a part, the step in the part's own coordinates is shorter. Parts that nodes do not rotate are
-/// rounded to the same world points. If vertices of a part would coincide, its step is halved until they
-/// stay distinct, up to 2^limit - 1 steps along its own longest side. Parts of the same mesh of a document
-/// share the finest step among them. Parts that are `left`, empty or not finite have no lattice and keep
-/// their usual bits, as do scenes of a single part or point.
-[[nodiscard]] EvenGrid even_grid(const Scene& scene, const std::vector<int>& usual, int bits, int limit,
-                                 const std::vector<bool>& left);
+struct BitLimits {
+    int usual = 14;     ///< divide the scene's longest side
+    int most = 16;      ///< of a part
+    bool draco = false; ///< stores each part's origin as float32, and bits at no cost
+};
+
+/// The longest side of what is drawn (drawn_bounds) is divided into 2^usual - 1 steps, which all parts share.
+/// If a node enlarges a part, the step in the part's own coordinates is shorter. Parts that nodes do not
+/// rotate are rounded to the same world points; under Draco, they have the same origin and bits, so that
+/// equal points stay equal to the last bit. If vertices of a part would coincide, its step is halved until
+/// they stay distinct. The limit is 2^most - 1 steps along the part's own longest side. Parts of the same
+/// geometry (shapes) share the finest step among them. Parts that are animated, empty or not finite have no
+/// lattice and keep their usual bits. The same applies to scenes of a single part or point.
+[[nodiscard]] EvenGrid even_grid(const Scene& scene, const DistinctParts& shapes,
+                                 const std::vector<int>& usual, const BitLimits& limits,
+                                 const std::vector<io::PartView>& views);
 
 } // namespace facetmill::write_stage

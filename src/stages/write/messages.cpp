@@ -5,10 +5,13 @@ namespace facetmill {
 const RegisterMessages write_messages{
     {"E-UP", "The scene has no up axis, so it cannot be rotated.",
      "Give the up axis when loading: `load: {up: z}`.", ErrorKind::stage},
+    {"W-DRACO",
+     "A glTF file is not compressed, because Draco in glTF compresses only faces, and the scene has none.",
+     "Compress points and lines with `write: {meshopt: true}`."},
     {"W-ORIGIN",
-     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does not only "
-     "set a position.",
-     "If you need the new origin, first remove skins and animations."},
+     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
+     "position it.",
+     "If you need the new origin, use `merge` before `write` to make parts without skins and animations."},
     {"W-ROUNDED",
      "Rounding or a limit of the format gave a written file more defects than the scene. Or it moved points "
      "by more than a millionth of the diagonal.",

@@ -27,10 +27,10 @@ void declare_grid(Declare<Options>& d) {
           "but at least 10"},
          {"mesh", Grid::mesh, "each mesh uses all bits for its own longest side"},
          {"even", Grid::even,
-          "all meshes use the same steps, derived from the scene's longest side, and finer steps only where "
-          "vertices would coincide; with quantize, parts that meet stay in contact, and parts that are not "
-          "rotated share one grid; animated meshes use scene"}},
-        "The size that the bits of positions divide.");
+          "all meshes use the same steps, derived from the scene's longest side. Steps are finer only where "
+          "vertices would coincide. Parts that meet stay in contact, and parts that are not rotated share "
+          "one grid. Animated meshes use scene"}},
+        "The length that is divided into 2^bits - 1 steps.");
 }
 
 void declare_draco(Declare<DracoOptions>& d) {
@@ -114,8 +114,8 @@ void declare_tiles(Declare<TilesOptions>& d) {
         "tiling", &TilesOptions::implicit,
         {{"explicit", false, "the tileset lists every tile"},
          {"implicit", true,
-          "tiles are identified by their level and position in a quadtree; binary files list the existing "
-          "tiles of a few levels each, with boxes and errors, so viewers need not read the whole list"}},
+          "tiles are identified by their level and position in a quadtree. Binary files list the existing "
+          "tiles of a few levels each, with boxes and errors. Viewers need not read the whole list"}},
         "How the tileset refers to its tiles.");
 }
 
@@ -219,13 +219,14 @@ void declare_write(Declare<WriteOptions>& d) {
         .also_called("binary", "(ascii: false), which is the default");
     d.option("big_endian", &WriteOptions::big_endian,
              "Writes binary PLY with the most significant byte first.");
-    d.choice<Precision>("precision", &WriteOptions::precision,
-                        {{"auto", Precision::automatic,
-                          "single; but full in PLY, OBJ and OFF if float32 would move points by more than a "
-                          "millionth of the scene's diagonal, as with geographic coordinates"},
-                         {"single", Precision::single, "positions are rounded to 32-bit floats"},
-                         {"full", Precision::full, "positions keep all 64 bits (PLY, OBJ, OFF, 3MF)"}},
-                        "The precision of positions.");
+    d.choice<Precision>(
+        "precision", &WriteOptions::precision,
+        {{"auto", Precision::automatic,
+          "single, except for PLY, OBJ and OFF files with coordinates far from the origin. They get full if "
+          "float32 would move points by more than a millionth of the scene's diagonal"},
+         {"single", Precision::single, "positions are rounded to 32-bit floats"},
+         {"full", Precision::full, "positions keep all 64 bits (PLY, OBJ, OFF, 3MF)"}},
+        "The precision of positions.");
     d.option(
         "origin", &WriteOptions::origin,
         "The origin of coordinates in glTF and 3MF files. Give a point of the scene, which the nodes of the "
@@ -291,8 +292,8 @@ void declare_write(Declare<WriteOptions>& d) {
          {"copy", io::Textures::copy,
           "as separate files next to the output, with names that begin with its stem"},
          {"reference", io::Textures::reference, "not copied: the file refers to the images of the input"}},
-        "Where to store the images of textures. Images inside a glTF input stay inside a .glb or .bin, and "
-        "become separate files for an .obj.");
+        "The location of texture images. Images inside a glTF input stay inside a .glb or .bin, and become "
+        "separate files for an .obj.");
     d.option("drop_names", &WriteOptions::drop_names,
              "Removes names of nodes, meshes, images, skins and accessors from glTF, and the name of the "
              "original program (generator). Scenes, animations, cameras and materials keep their names.");

@@ -14,7 +14,7 @@ struct DracoOptions {
     enum class Degenerate { drop, keep };
 
     bool on = true;
-    Grid grid = Grid::scene;
+    Grid grid = Grid::even;
     std::optional<std::int64_t> position_bits;
     std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12, speed = 0;
     Degenerate degenerate_faces = Degenerate::drop;
@@ -22,7 +22,7 @@ struct DracoOptions {
 
 struct QuantizeOptions {
     bool on = true;
-    Grid grid = Grid::scene;
+    Grid grid = Grid::even;
     std::optional<std::int64_t> position;
     std::int64_t normal = 8, uv = 12, colour = 8, weights = 8;
 };

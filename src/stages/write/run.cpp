@@ -2,8 +2,11 @@
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/gltf/gltf.hpp"
+#include "mesh/drawn_box.hpp"
 #include "stages/write/cells.hpp"
 #include "stages/write/file.hpp"
+#include "stages/write/fit.hpp"
 #include "stages/write/help.hpp"
 
 #include <algorithm>
@@ -58,6 +61,17 @@ void give_tangents_to_all(Scene& out, std::vector<Lent>& lent, const WriteOption
     }
 }
 
+/// Makes the written parts fit the purpose in the precision of the file.
+void keep_fit(Scene& out, std::vector<Lent>& lent, const Purpose& purpose, const io::Codec& codec,
+              const io::WriteSettings& settings, Context& context) {
+    auto replaced = make_fit(out, purpose, codec, settings, context);
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        if (!replaced[k]) continue;
+        if (lent[k].positions) replaced[k]->positions = *std::exchange(lent[k].positions, std::nullopt);
+        if (!lent[k].mesh) lent[k].mesh = std::move(replaced[k]);
+    }
+}
+
 void declare_order(DeclareFields<io::VertexCacheUse>& d) {
     using Use = io::VertexCacheUse;
     const auto per = [](std::size_t Use::*transforms, std::size_t Use::*of) {
@@ -94,61 +108,107 @@ std::vector<std::string> formats_with(bool io::Capabilities::*what) {
     return names;
 }
 
-/// Whether the part is left out because the format cannot hold lines.
-bool is_left_out(const Part& part, const io::Codec& codec) {
-    return part.mesh.line_count() > 0 && !codec.can.lines;
+bool is_of_points(const Part& part) {
+    return part.mesh.vertex_count() > 0 && part.mesh.face_count() == 0 && part.mesh.line_count() == 0;
 }
 
-/// Warns of parts left out because they have lines. Throws a stage error (E-EMPTY) if no other part is left.
-void tell_lines(const Scene& scene, const Scene& out, const WriteOptions& o, const io::Codec& codec,
-                Context& context) {
-    std::vector<std::string> names;
-    for (const Part& part : scene.parts)
-        if (is_left_out(part, codec) && context.selects(part, scene)) names.push_back(part.name);
+/// The kinds of parts that a written file does not get.
+struct LeftOut {
+    bool lines = false, points = false;
+
+    bool operator()(const Part& part) const {
+        return part.mesh.line_count() > 0 ? lines : points && is_of_points(part);
+    }
+};
+
+/// Points are left out only if there are faces; without faces, the format holds them or the stage fails.
+LeftOut left_out(const Scene& scene, const io::Codec& codec, const Context& context) {
+    const bool faces = std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+        return part.mesh.face_count() > 0 && context.selects(part, scene);
+    });
+    return {!codec.can.lines, faces && !codec.can.points_and_faces};
+}
+
+/// Warns of parts of one kind that are left out.
+void warn_of_left_out(const std::vector<std::string>& names, bool lines, const WriteOptions& o,
+                      const io::Codec& codec, Context& context) {
     if (names.empty()) return;
-    const std::string hint =
-        fmt::format("{} can store lines", fmt::join(formats_with(&io::Capabilities::lines), ", "));
-    if (out.parts.empty())
+    const auto formats = formats_with(lines ? &io::Capabilities::lines : &io::Capabilities::points_and_faces);
+    context.warn(lines ? "W-LINES" : "W-SKIPPED",
+                 fmt::format("'{}': {} cannot store {}, so {} {} skipped: {}", o.path.text, codec.name,
+                             lines ? "lines" : "points next to faces", counted(names.size(), "part"),
+                             names.size() == 1 ? "is" : "are", fmt::join(names, ", ")),
+                 fmt::format("{} can store {}", fmt::join(formats, ", "), lines ? "lines" : "both"));
+}
+
+/// Warns of parts left out because of their kind. Throws stage (E-EMPTY) if there are lines and no other
+/// part.
+void tell_left_out(const Scene& scene, const Scene& out, const LeftOut& goes, const WriteOptions& o,
+                   const io::Codec& codec, Context& context) {
+    std::vector<std::string> lines, points;
+    for (const Part& part : scene.parts)
+        if (goes(part) && context.selects(part, scene))
+            (part.mesh.line_count() > 0 ? lines : points).push_back(part.name);
+    if (!lines.empty() && out.parts.empty())
         throw Error(
             ErrorKind::stage, "E-EMPTY",
             fmt::format("there is nothing to write to '{}': the scene has lines and no faces", o.path.text),
-            hint, context.where());
-    context.warn("W-LINES",
-                 fmt::format("'{}': {} cannot store lines, so {} {} skipped: {}", o.path.text, codec.name,
-                             counted(names.size(), "part"), names.size() == 1 ? "is" : "are",
-                             fmt::join(names, ", ")),
-                 hint);
+            fmt::format("{} can store lines", fmt::join(formats_with(&io::Capabilities::lines), ", ")),
+            context.where());
+    warn_of_left_out(lines, true, o, codec, context);
+    warn_of_left_out(points, false, o, codec, context);
 }
 
-/// Throws a stage error (E-EMPTY) unless the format can store the scene's points or lines with these
-/// options.
-void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, const Context& context) {
+/// Throws stage (E-EMPTY) unless the format can store the scene's points or lines.
+void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
     const bool any = std::any_of(scene.parts.begin(), scene.parts.end(),
                                  [](const Part& part) { return part.mesh.vertex_count() > 0; });
     const bool lines = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const Part& part) { return part.mesh.line_count() > 0; });
-    const bool always = codec.can.draco == io::Capabilities::Draco::always;
-    const bool compressed =
-        (o.draco && o.draco->on && !always) || (o.quantize && o.quantize->on) || (o.meshopt && o.meshopt->on);
-    if (any && codec.can.points && !compressed) return;
-    if (lines && codec.can.lines)
+    if ((any && codec.can.points) || (lines && codec.can.lines)) {
+        const bool only_triangles = codec.can.draco == io::Capabilities::Draco::on_request;
+        if (o.draco && o.draco->on && only_triangles)
+            context.warn("W-DRACO",
+                         fmt::format("'{}' is not compressed: in {}, Draco compresses faces only, and the "
+                                     "scene has none",
+                                     o.path.text, codec.name),
+                         codec.can.meshopt ? "meshopt: true compresses points and lines" : "");
+        return;
+    }
+    if (io::is_without_meshes(scene))
         throw Error(ErrorKind::stage, "E-EMPTY",
-                    fmt::format("there is nothing to compress in '{}': the scene has lines and no faces",
-                                o.path.text),
-                    "write lines without draco, quantize and meshopt", context.where());
+                    fmt::format("there is nothing to write to '{}': the scene has no meshes, and {} "
+                                "stores nothing else",
+                                o.path.text, codec.name),
+                    fmt::format("{} can store nodes, cameras and animations",
+                                fmt::join(formats_with(&io::Capabilities::documents), ", ")),
+                    context.where());
     const std::vector<std::string> formats = formats_with(&io::Capabilities::points);
-    std::vector<std::string> compressing;
-    for (const io::Codec& other : io::codecs())
-        if (other.write && other.can.points && other.can.draco == io::Capabilities::Draco::always)
-            compressing.push_back(other.name);
-    throw Error(ErrorKind::stage, "E-EMPTY",
-                fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
-                            any ? "points and no faces" : "neither faces nor points"),
-                any ? fmt::format("{} can store points, but only {} can compress them",
-                                  fmt::join(formats, ", "), fmt::join(compressing, ", "))
-                    : "check the result of the stages before; the common key when: {vertices: {min: 1}} "
-                      "skips an empty write",
-                context.where());
+    throw Error(
+        ErrorKind::stage, "E-EMPTY",
+        fmt::format("there is nothing to write to '{}': the scene has {}", o.path.text,
+                    any ? "points and no faces" : "neither faces nor points"),
+        any ? fmt::format("{} can store points", fmt::join(formats, ", "))
+            : "check the result of the stages before; the common key when: {vertices: {min: 1}} skips an "
+              "empty write",
+        context.where());
+}
+
+/// Rounding depends on the bounds, so vertices that nothing draws must not widen them. Features that are
+/// numbered by vertex keep all vertices.
+void drop_unused_vertices(Scene& out, std::vector<Lent>& lent) {
+    const auto by_vertex = [](const Primitive& p) {
+        return p.json.find("EXT_mesh_features") != std::string::npos;
+    };
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Part& part = out.parts[k];
+        const auto& primitives = part.mesh.primitives;
+        if (!has_unused_vertices(part.mesh) || std::any_of(primitives.begin(), primitives.end(), by_vertex))
+            continue;
+        if (!lent[k].mesh) lent[k].mesh = part.mesh;
+        drop_unused(part.mesh);
+        part.changed = true;
+    }
 }
 
 /// Logs the number of faces that are written as triangles, unless all faces are triangles.
@@ -160,7 +220,7 @@ void say_of_triangles(const Scene& scene, const WriteOptions& o, const io::Codec
             for (Index f = 0; f < part.mesh.face_count(); ++f) larger += part.mesh.face_size(f) > 3;
     if (larger > 0)
         context.say(
-            fmt::format("{} of more than three corners written as triangles", counted(larger, "face")));
+            fmt::format("{} with more than three corners written as triangles", counted(larger, "face")));
 }
 
 } // namespace
@@ -170,6 +230,9 @@ void declare_write_report(DeclareFields<WriteReport>& d) {
         .only_when("the factor is not 1");
     d.field("up", &WriteReport::up, "The up axis of the file.")
         .only_when("the scene was rotated for the file");
+    d.field("fits", &WriteReport::fits,
+            "The purpose of an earlier check that the file also passed when it was read back.")
+        .only_when("an earlier check had a purpose");
     d.object("origin", &WriteReport::origin, "The origin of the coordinates in the file.",
              [](DeclareFields<OriginReport>& f) {
                  f.field("offset", &OriginReport::offset, "The point in the scene's units.");
@@ -204,28 +267,34 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     // Moves the parts into the written scene, so that no mesh is copied; they are moved back afterwards.
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
+    const LeftOut goes = left_out(scene, *codec, context);
+    const bool document = codec->can.documents && io::is_without_meshes(scene);
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
-        if (context.selects(scene.parts[i], scene) && !is_left_out(scene.parts[i], *codec))
+        if (context.selects(scene.parts[i], scene) && !goes(scene.parts[i]))
             lent.push_back({i, scene.parts[i].transform, scene.parts[i].changed});
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
-    tell_lines(scene, out, o, *codec, context);
-    if (out.face_count() == 0) check_points(out, o, *codec, context);
+    tell_left_out(scene, out, goes, o, *codec, context);
+    if (out.face_count() == 0 && !document) check_points(out, o, *codec, context);
     ProgressSteps steps({1, 4, 5});
     say_of_triangles(out, o, *codec, context);
-    if (o.triangulate && codec->can.polygons) make_triangles(out, lent);
+    const std::shared_ptr<const Purpose> purpose = context.trail().purpose;
+    if (codec->can.polygons ? o.triangulate : purpose != nullptr) make_triangles(out, lent);
     give_normals(out, lent, o, context);
     give_tangents_to_all(out, lent, o, context);
+    const std::filesystem::path target = context.places().output(o.path.text);
+    io::WriteSettings settings = settings_of(o, *codec, target);
+    if (settings.draco.on || settings.quantize.on || settings.meshopt.on) drop_unused_vertices(out, lent);
     if (codec->can.transforms && o.precision != WriteOptions::Precision::full) {
         std::map<std::size_t, std::vector<Vec3>> moved;
         report.origin = move_origin(out, o.origin, context, moved);
         for (auto& [k, positions] : moved) lent[k].positions = std::move(positions);
     }
     to_convention(out, o, *codec, context, report);
-    const std::filesystem::path target = context.places().output(o.path.text);
-    io::WriteSettings settings = settings_of(o, *codec, target);
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
     choose_bits(settings, o, *codec, out, report);
+    if (purpose && !settings.double_positions && !codec->can.tiles)
+        keep_fit(out, lent, *purpose, *codec, settings, context);
     settings.draco.keep_decoded = context.reads_back();
     steps.next();
     const io::Written written = codec->write(out, settings);
@@ -238,7 +307,11 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
         else
             context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
-    stage_files(written, o.path.text, *codec, out, settings, context);
+    WrittenScene file = stage_files(written, o.path.text, *codec, out, settings, context);
+    file.is_whole = lent.size() == scene.parts.size();
+    if (purpose && !codec->can.tiles && check_fit(file, *purpose, out, settings, context))
+        report.fits = purpose->name;
+    context.wrote(std::move(file));
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
@@ -272,6 +345,8 @@ const RegisterStage registered = make_stage<WriteStage>(
                   "write: {path: web.glb, normals: smooth, feature_angle: 40deg}",
                   "write: {path: out/tileset.json, tiles: 3d, draco: true}"},
      .tells = true,
+     .keeps_scene = true,
+     .writes_scene = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all, // the scene passes through unchanged, so nothing is compared
      .crossing_faces = CrossingFacePolicy::name,

@@ -135,7 +135,7 @@ TEST_CASE("scoring takes nothing away and opens no crack", "[geometry]") {
     const Mesh sphere = shapes::icosphere(3);
     const Plane plane{{1, 0.7, 0.3}, {0.1, 0.2, 0.05}, 0};
     CutMemory memory;
-    const ScoreResult all = score(sphere, {plane, {}, FlatSide::by_normal, 0}, memory);
+    const ScoreResult all = score(sphere, {plane, {}, FlatSide::by_normal, {}}, memory);
     CHECK(broken_invariants(all.mesh).empty());
     CHECK(test::closed(all.mesh));
     CHECK(test::edge_manifold(all.mesh));
@@ -146,7 +146,7 @@ TEST_CASE("scoring takes nothing away and opens no crack", "[geometry]") {
     std::vector<std::uint8_t> some(sphere.face_count());
     for (std::size_t f = 0; f < some.size(); ++f) some[f] = sphere.point(3 * static_cast<Index>(f)).z > 0;
     CutMemory other;
-    const ScoreResult part = score(sphere, {plane, some, FlatSide::by_normal, 0}, other);
+    const ScoreResult part = score(sphere, {plane, some, FlatSide::by_normal, {}}, other);
     CHECK(part.cut_faces > 0);
     CHECK(part.cut_faces < all.cut_faces);
     CHECK(broken_invariants(part.mesh).empty());

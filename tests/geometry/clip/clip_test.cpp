@@ -1,11 +1,16 @@
 #include "geometry/clip/clip.hpp"
 
+#include "base/math/numbers.hpp"
+
 #include "geometry/inspect/inspect.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
+#include "mesh/topology.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/measure.hpp"
+#include "support/meshes.hpp"
 
 #include <set>
 
@@ -333,6 +338,77 @@ TEST_CASE("numbers that no rounding has made are not snapped, however far apart 
     const ClipResult cut = clip(strip, settings);
     CHECK(cut.snapped == 0);
     CHECK(cut.front.bounds().min.y == 5400010.3);
+}
+
+TEST_CASE("the rounding of floats counts along the plane's normal", "[geometry]") {
+    Mesh building = shapes::cube();
+    for (Vec3& p : building.positions) p = Vec3{20 * p.x, 10 * p.y, 3 * p.z} + Vec3{500000, 4649770, 0};
+    const auto below = [](const Mesh& mesh, const Vec3& normal, double at) {
+        ClipSettings settings = at_plane({normal, normal * at, 0});
+        settings.keep = Keep::back;
+        settings.cap = settings.snap = true;
+        return clip(mesh, settings);
+    };
+    CHECK(test::volume(test::moved(below(building, {0, 0, 1}, 2.9).back, {-500000, -4649770, 0})) ==
+          Approx(580));
+    CHECK(test::volume(test::moved(below(building, {0, 0, 1}, 0.3).back, {-500000, -4649770, 0})) ==
+          Approx(60));
+    CHECK(below(building, {0, 1, 0}, 4649770.2).snapped == 0); // whole metres were not rounded
+    Mesh rounded = shapes::cube();
+    for (Vec3& p : rounded.positions) p = as_float32(p * 10.3 + Vec3{450000, 5400000, 0});
+    CHECK(below(rounded, {0, 1, 0}, 5400010.3).snapped == 4);
+    CHECK(below(rounded, {0, 1, 0}, 5400010.2).snapped == 0); // floats are rounded by 0.25 there
+    CHECK(below(rounded, {1, 0, 0}, 450010.3).snapped == 4);
+    CHECK(below(rounded, {1, 0, 0}, 450010.2).snapped == 0);
+    CHECK(below(rounded, {0, 0, 1}, 10.3).snapped == 4);
+    CHECK(below(rounded, {0, 0, 1}, 10.29).snapped == 0);
+}
+
+namespace {
+
+/// The solid between a grid's heights and the plane z = 0.
+Mesh solid_below(Mesh top) {
+    const auto n = static_cast<Index>(top.vertex_count());
+    const std::vector<BoundaryEdge> border = boundary_edges(top);
+    const std::vector<Index> corners = top.corners;
+    for (Index v = 0; v < n; ++v) top.positions.push_back({top.positions[v].x, top.positions[v].y, 0});
+    for (std::size_t c = 0; c < corners.size(); c += 3)
+        top.corners.insert(top.corners.end(), {n + corners[c], n + corners[c + 2], n + corners[c + 1]});
+    for (const auto& e : border)
+        top.corners.insert(top.corners.end(), {e.to, e.from, n + e.from, e.to, n + e.from, n + e.to});
+    return top;
+}
+
+void check_capped(const Mesh& mesh) {
+    CHECK(test::closed(mesh));
+    CHECK(test::edge_manifold(mesh));
+    CHECK(inspect(mesh).vertex_manifold);
+    CHECK(find_self_intersections(mesh, {.separate_touching = true}).count == 0);
+}
+
+} // namespace
+
+TEST_CASE("a vertex that lies on the plane from one side becomes a corner of the cap", "[geometry]") {
+    Mesh grid = shapes::grid(4, 4);
+    for (Vec3& p : grid.positions) p.z = p.x == 2 && p.y == 2 ? 1 : 2;
+    ClipSettings settings = at_plane({{0, 0, 1}, {0, 0, 1}, 0});
+    settings.cap = true;
+    const ClipResult pit = clip(solid_below(grid), settings);
+    check_capped(pit.front);
+    CHECK(test::volume(pit.front) == Approx(15)); // the pit is a cone of height 1 over six half squares
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        CAPTURE(seed);
+        Mesh terrain = shapes::grid(8, 8);
+        for (std::size_t v = 0; v < terrain.positions.size(); ++v)
+            terrain.positions[v].z = std::floor(test::between(1, 6, seed, v));
+        const Mesh solid = solid_below(terrain);
+        settings.planes = {{{0, 0, 1}, {0, 0, 3}, 0}};
+        settings.keep = Keep::both;
+        const ClipResult cut = clip(solid, settings);
+        check_capped(cut.front);
+        check_capped(cut.back);
+        CHECK(test::volume(cut.front) + test::volume(cut.back) == Approx(test::volume(solid)));
+    }
 }
 
 TEST_CASE("a plane through computed vertices cuts no slivers off at them", "[geometry]") {

@@ -1,5 +1,6 @@
 #include "geometry/crop/crop.hpp"
 
+#include "base/math/numbers.hpp"
 #include "base/math/portable_math.hpp"
 #include "base/math/random.hpp"
 #include "geometry/inspect/inspect.hpp"
@@ -437,11 +438,14 @@ TEST_CASE("a terrain in UTM is cut where the outline is", "[geometry]") {
     }
     // At northern coordinates, float32 has steps of half a metre, so vertices may have been elsewhere.
     Mesh rounded = shapes::cube();
-    for (Vec3& p : rounded.positions) p = p * 10.5 + Vec3{450000, 5400000, 0};
+    for (Vec3& p : rounded.positions) p = as_float32(p * 10.3 + Vec3{450000, 5400000, 0}); // y: 5400010.5
     CropSettings settings;
     settings.snap = true;
-    const Rings beside{{{449990, 5399990}, {450010.7, 5399990}, {450010.7, 5400030}, {449990, 5400030}}};
-    CHECK(crop(rounded, Footprint(beside), settings).snapped == 4);
+    const auto up_to = [](double x, double y) {
+        return Footprint({{{449990, 5399990}, {x, 5399990}, {x, y}, {449990, y}}});
+    };
+    CHECK(crop(rounded, up_to(450030, 5400010.3), settings).snapped == 4);
+    CHECK(crop(rounded, up_to(450010.35, 5400030), settings).snapped == 0); // in x, floats are finer
 }
 
 TEST_CASE("positions in doubles are not snapped", "[geometry]") {

@@ -206,17 +206,16 @@ TEST_CASE("glTF that must not be read is refused with the place", "[io]") {
     const std::string head = R"({"asset":{"version":"2.0"},)";
     CHECK(refuse("{") == "malformed [E-JSON] test: not valid JSON at byte 2");
     CHECK(refuse(R"({"asset":{"version":"1.0"}})") == "malformed [E-VERSION] test: asset.version: expected "
-                                                      "glTF 2.x, found \"1.0\" | gltf-pipeline writes glTF "
-                                                      "1.0 as 2.0");
+                                                      "glTF 2.x, found \"1.0\" | convert it to glTF 2.0: "
+                                                      "npx gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(R"({"asset":{"version":"3.0"}})") ==
           "malformed [E-VERSION] test: asset.version: expected glTF 2.x, found \"3.0\"");
     CHECK(refuse(R"({"meshes":{"a":{"primitives":[]}}})") ==
-          "malformed [E-VERSION] test: expected glTF 2.x, found glTF 1.0 | gltf-pipeline writes glTF 1.0 as "
-          "2.0");
+          "malformed [E-VERSION] test: expected glTF 2.x, found glTF 1.0 | convert it to glTF 2.0: npx "
+          "gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(std::string_view("glTF\1\0\0\0\x18\0\0\0\4\0\0\0\0\0\0\0{}  ", 24)) ==
-          "malformed [E-VERSION] test: at byte 4: expected GLB version 2, found version 1 | gltf-pipeline "
-          "writes glTF "
-          "1.0 as 2.0");
+          "malformed [E-VERSION] test: at byte 4: expected GLB version 2, found version 1 | convert it to "
+          "glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(head + R"("extensionsRequired":["XX_other"]})") ==
           "malformed [E-EXTENSION] test: extensionsRequired[0]: the extension \"XX_other\" is required and "
           "not supported");
@@ -358,40 +357,38 @@ TEST_CASE("lines beside points are parts, and both keep their materials", "[io]"
     CHECK(log.warnings.empty());
     REQUIRE(scene.parts.size() == 3);
     CHECK(broken_invariants(scene).empty());
-    CHECK(scene.parts[0].mesh.line_count() == 2);
-    CHECK(scene.materials.at(scene.parts[0].mesh.primitives.at(0).material).name == "plain");
-    CHECK(scene.parts[1].mesh.line_count() == 0);
-    CHECK(scene.materials.at(scene.parts[1].mesh.primitives.at(0).material).name == "red");
-    CHECK(scene.parts[2].mesh.primitives.empty());
-    for (const Part& part : scene.parts) CHECK(part.document == -1);
+    CHECK(scene.parts[0].mesh.line_count() == 0);
+    CHECK(scene.materials.at(scene.parts[0].mesh.primitives.at(0).material).name == "red");
+    CHECK(scene.parts[1].mesh.line_count() == 2);
+    CHECK(scene.materials.at(scene.parts[1].mesh.primitives.at(0).material).name == "plain");
+    CHECK(scene.parts[2].mesh.primitives.at(0).material == none);
+    for (const Part& part : scene.parts) CHECK(part.document == 0);
 
     const Scene again = test::again(scene, {});
     REQUIRE(again.parts.size() == 3);
     const Json json = Json::parse(test::json_of(test::written(scene, "glb").files[0].bytes));
     CHECK(json["materials"].size() == 2);
     CHECK(json.dump().find("\"extras\":{\"a\":1}") != std::string::npos);
-    const Part& points = again.parts[1];
+    const Part& points = again.parts[0];
     CHECK(points.mesh.line_count() == 0);
     CHECK(again.materials.at(points.mesh.primitives.at(0).material).base_colour[1] == 0);
 
-    test::read_text(text(R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)"), &log);
-    REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].message == "cameras of a document of points cannot be kept: skipped");
-    log.warnings.clear();
-    std::string weights = text("");
-    weights.replace(weights.find("{\"mesh\":1}"), 10, "{\"mesh\":1,\"weights\":[1]}");
-    test::read_text(weights, &log);
-    REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].message == "morph weights of a document of points cannot be kept: skipped");
-    log.warnings.clear();
+    const std::string camera = R"("cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],)";
+    const Scene seen = test::read_text(text(camera.c_str()), &log);
+    CHECK(log.warnings.empty());
+    CHECK(Json::parse(test::json_of(test::written(seen, "glb").files[0].bytes))["cameras"].size() == 1);
     std::string targets = text("");
     targets.replace(targets.find("\"mode\":0"), 8, R"("mode":0,"targets":[{"POSITION":0}])");
-    test::read_text(targets, &log);
-    REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].message == "morph targets of a document of points cannot be kept: skipped");
+    Scene morphed = test::read_text(targets, &log);
+    CHECK(log.warnings.empty());
+    for (const bool changed : {false, true}) {
+        morphed.parts[0].changed = changed;
+        const Json written = Json::parse(test::json_of(test::written(morphed, "glb").files[0].bytes));
+        CHECK(written["meshes"][0]["primitives"][0]["targets"].size() == 1);
+    }
 }
 
-TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own", "[io]") {
+TEST_CASE("lines and points beside triangles in one mesh get a mesh and a node of their own", "[io]") {
     const std::string text =
         R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"materials":[{"name":"red"},{"name":"blue"}],
  "nodes":[{"name":"a","mesh":0,"translation":[5,0,0],"weights":[0.5]},{"mesh":0}],
@@ -408,12 +405,11 @@ TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own
  "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
     io::ReadLog log;
     const Scene scene = test::read_text(text, &log);
-    REQUIRE(log.warnings.size() == 1); // of the points, which stay
-    CHECK(log.warnings[0].message.find("a primitive of points or without positions kept") !=
-          std::string::npos);
-    REQUIRE(scene.parts.size() == 4);
+    REQUIRE(scene.parts.size() == 6);
     CHECK(broken_invariants(scene).empty());
-    const Part &faces = scene.parts[0], &lines = scene.parts[2], &second = scene.parts[3];
+    const Part &faces = scene.parts[0], &lines = scene.parts[2], &points = scene.parts[3],
+               &second = scene.parts[4];
+    CHECK((points.name == "a_points" && points.mesh.vertex_count() == 3 && points.mesh.face_count() == 0));
     CHECK((faces.name == "a" && faces.mesh.face_count() == 1 && faces.mesh.line_count() == 0));
     CHECK((lines.name == "a_lines" && lines.mesh.face_count() == 0 && lines.mesh.line_count() == 2));
     CHECK(second.name == "m_lines");
@@ -423,27 +419,30 @@ TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own
     CHECK(scene.materials.at(faces.mesh.primitives.at(0).material).name == "red");
 
     const Json json = Json::parse(test::json_of(test::written(scene, "glb").files[0].bytes));
-    CHECK(json["meshes"].size() == 2);
+    CHECK(json["meshes"].size() == 3);
     CHECK(json["meshes"][1]["weights"] == Json{0.25});
-    CHECK(json["nodes"][0]["children"] == Json{2});
+    CHECK(json["nodes"][0]["children"] == Json{2, 3});
     CHECK(json["nodes"][2] == Json{{"name", "a_lines"}, {"mesh", 1}, {"weights", {0.5}}});
-    CHECK(json["nodes"][3] == Json{{"mesh", 1}});
+    CHECK(json["nodes"][3] == Json{{"name", "a_points"}, {"mesh", 2}, {"weights", {0.5}}});
+    CHECK(json["nodes"][4] == Json{{"mesh", 1}});
     const Json& channels = json["animations"][0]["channels"];
-    REQUIRE(channels.size() == 5);
+    REQUIRE(channels.size() == 7);
     CHECK(channels[3]["target"] == Json{{"node", 2}, {"path", "weights"}});
-    CHECK(channels[4]["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == "/meshes/1/weights");
+    CHECK(channels[4]["target"] == Json{{"node", 3}, {"path", "weights"}});
+    CHECK(channels[5]["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == "/meshes/1/weights");
+    CHECK(channels[6]["target"]["extensions"]["KHR_animation_pointer"]["pointer"] == "/meshes/2/weights");
     CHECK(json["meshes"][1]["extras"] == Json::parse(R"({"targetNames":["up"]})"));
     Scene moved = scene;
     for (Vec3& p : moved.parts[2].mesh.positions) p.z += 1;
     moved.parts[2].changed = true;
     const Scene again = test::again(moved, {});
-    REQUIRE(again.parts.size() == 4);
+    REQUIRE(again.parts.size() == 6);
     CHECK(again.parts[2].mesh.positions.at(0).z == 1);
-    CHECK(again.parts[3].mesh.positions.at(0).z == 0);
+    CHECK(again.parts[4].mesh.positions.at(0).z == 0);
 
     const auto bytes = std::as_bytes(std::span(text));
     CHECK(io::file_header(io::Input::of("a.gltf", {bytes.begin(), bytes.end()}), {}).parts ==
-          std::vector<std::string>{"a", "m", "a_lines", "m_lines"});
+          std::vector<std::string>{"a", "m", "a_lines", "a_points", "m_lines", "m_points"});
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string other = text;
         return other.replace(other.find(from), from.size(), to);
@@ -452,7 +451,7 @@ TEST_CASE("lines beside triangles in one mesh get a mesh and a node of their own
     CHECK_THROWS_AS(test::read_text(with(R"("nodes":[0,1])", R"("nodes":[0,2])")), Error);
 }
 
-TEST_CASE("nodes of lines beside triangles are parts, and those of points are named", "[io]") {
+TEST_CASE("nodes of lines and of points beside triangles are parts", "[io]") {
     const auto text = [](int mode) {
         return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1,2]}}],
  "nodes":[{{"mesh":0}},{{"mesh":1}},{{"mesh":1}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}},
@@ -468,10 +467,11 @@ TEST_CASE("nodes of lines beside triangles are parts, and those of points are na
     REQUIRE(lines.parts.size() == 3);
     CHECK(lines.parts[2].mesh.line_count() == 2);
     CHECK(lines.parts[2].node == 2);
-    CHECK(test::read_text(text(0), &log).parts.size() == 1);
-    REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].id == "W-SKIPPED");
-    CHECK(log.warnings[0].message.starts_with("nodes[1] and 1 more have no triangles and no lines"));
+    const Scene points = test::read_text(text(0), &log);
+    CHECK(log.warnings.empty());
+    REQUIRE(points.parts.size() == 3);
+    CHECK(points.parts[2].mesh.vertex_count() == 3);
+    CHECK(points.parts[2].source_mesh == points.parts[1].source_mesh);
 }
 
 TEST_CASE("scenes that refer to nothing do not keep a file from being read", "[io]") {
@@ -485,13 +485,13 @@ TEST_CASE("scenes that refer to nothing do not keep a file from being read", "[i
         const std::size_t parts = test::read_text(text, &log).parts.size();
         return std::pair(parts, log.warnings.size());
     };
-    using Told = std::pair<std::size_t, std::size_t>; // parts, and warnings that they are not shown
+    using Told = std::pair<std::size_t, std::size_t>; // parts, and warnings: W-GLTF, and W-SCENES
     for (const char* first :
          {R"("scene":7,"scenes":[{"nodes":[0]}])", R"("scene":null,"scenes":[{"nodes":[0]}])",
           R"("scene":"0","scenes":[{"nodes":[0]}])", R"("scene":-1,"scenes":[{"nodes":[0]}])",
           R"("scene":0,"scenes":[{"nodes":[99,0]}])"})
-        CHECK(parts_of(first) == Told{1, 0});
-    CHECK(parts_of(R"("scene":0,"scenes":[{"nodes":null}])") == Told{1, 1});
+        CHECK(parts_of(first) == Told{1, 1});
+    CHECK(parts_of(R"("scene":0,"scenes":[{"nodes":null}])") == Told{1, 2});
 }
 
 TEST_CASE("a part more asks for memory as often as its mesh and its document need it", "[io]") {

@@ -205,6 +205,35 @@ TEST_CASE("textures are read from below the OBJ's folder only, and missing ones 
     CHECK(load(dir / "a.obj").warnings().find("neither PNG nor JPEG") != std::string::npos);
 }
 
+TEST_CASE("an OBJ may name several libraries, in one statement or in several", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "a.mtl", "newmtl red\nKd 1 0 0\n");
+    put(dir / "b b.mtl", "newmtl blue\nKd 0 0 1\n");
+    put(dir / "none.mtl", "newmtl\nKd 0 1 0\n"); // without a name
+    const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 3 2 1\n";
+    for (const std::string libraries :
+         {"mtllib a.mtl b b.mtl\n", "mtllib b b.mtl a.mtl\n", "mtllib a.mtl\nmtllib b b.mtl\n"}) {
+        INFO(libraries);
+        put(dir / "a.obj", libraries + faces);
+        const Loaded loaded = load(dir / "a.obj");
+        CHECK(loaded.warnings().empty());
+        REQUIRE(loaded.scene.materials.size() == 2);
+        CHECK(loaded.scene.materials[0].base_colour[0] == 1);
+        CHECK(loaded.scene.materials[1].base_colour[2] == 1);
+        CHECK(loaded.log.files.size() == 2);
+    }
+    // Faces before the first usemtl have no material; usemtl without a name means the one without a name.
+    put(dir / "a.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl\nf 3 2 1\n");
+    const Loaded unnamed = load(dir / "a.obj");
+    REQUIRE(unnamed.scene.materials.size() == 1);
+    CHECK(unnamed.scene.materials[0].name.empty());
+    CHECK(unnamed.scene.materials[0].base_colour[1] == 1);
+    const auto& primitives = unnamed.scene.parts.at(0).mesh.primitives;
+    REQUIRE(primitives.size() == 2);
+    CHECK(primitives[0].material == none);
+    CHECK(primitives[1].material == 0);
+}
+
 TEST_CASE("black beside a texture does not blacken it", "[io]") {
     const TemporaryDirectory dir;
     const Json m = load_quad(dir, "Kd 0 0 0\nmap_Kd red.png\nKe 0 0 0\nmap_Ke red.png\n").material();

@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
 
+#include <array>
 #include <fmt/format.h>
 
 using namespace facetmill;
@@ -68,6 +69,23 @@ TEST_CASE("a part without colours gets none because another one has some", "[io]
     REQUIRE(lines.scene.parts.size() == 2);
     for (const Part& part : lines.scene.parts)
         CHECK((colours(part) != nullptr) == (part.mesh.face_count() > 0));
+}
+
+TEST_CASE("colours of an OBJ count to 1 or to 255", "[io][obj]") {
+    const auto colour = [](const std::string& vertices, std::size_t v) {
+        const Loaded loaded(vertices + "f 1 2 3\n");
+        const Attribute* a = loaded.scene.parts.at(0).mesh.find("COLOR_0", Domain::wedge);
+        REQUIRE(a);
+        return std::array{a->value(v, 0), a->value(v, 1), a->value(v, 2)};
+    };
+    const std::string bytes = "v 0 0 0 255 0 0\nv 1 0 0 0 51 0\nv 0 1 0 1 0 0\n";
+    CHECK(colour(bytes, 0) == std::array{1.0, 0.0, 0.0});
+    CHECK(colour(bytes, 1)[1] == Approx(0.2));
+    CHECK(colour(bytes, 2)[0] == Approx(1.0 / 255));
+    const std::string fractions = "v 0 0 0 1 0 0\nv 1 0 0 0 0.2 0\nv 0 1 0 1 0 0\n";
+    CHECK(colour(fractions, 0) == std::array{1.0, 0.0, 0.0});
+    CHECK(colour(fractions, 1)[1] == Approx(0.2));
+    CHECK(colour("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n", 1)[1] == 1);
 }
 
 TEST_CASE("groups that share vertices, and those within an object, are numbers of faces", "[io][obj]") {

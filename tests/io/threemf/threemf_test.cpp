@@ -260,6 +260,108 @@ TEST_CASE("properties of 3MF triangles come from the triangle, else from the obj
     CHECK(m.vertex_count() == 3);
 }
 
+TEST_CASE("objects of a 3MF that are no models are left out and named", "[io]") {
+    const auto object = [](int id, const char* type) {
+        return fmt::format("<object id=\"{}\" type=\"{}\">{}</object>", id, type, one_triangle);
+    };
+    const std::string all = object(1, "model") + object(2, "support") + object(3, "other") +
+                            object(4, "surface") + object(5, "solidsupport");
+    const Loaded some =
+        load(archive(model(all, R"(<item objectid="1"/><item objectid="2"/><item objectid="3"/>
+<item objectid="4"/><item objectid="5"/>)")));
+    CHECK(some.scene.parts.size() == 1);
+    REQUIRE(some.log.warnings.size() == 2);
+    CHECK(some.log.warnings[0].id == "W-SKIPPED");
+    CHECK(some.log.warnings[0].message ==
+          "objects that are no models are left out: 1 'other', 1 'solidsupport', 1 'support', 1 'surface'");
+    CHECK(some.log.warnings[1].id == "W-3MF");
+    CHECK(some.log.warnings[1].message == "it builds object 3, whose type is 'other', which it must not");
+    const Loaded surface = load(archive(model(object(4, "surface"), R"(<item objectid="4"/>)")));
+    CHECK(surface.scene.parts.size() == 1);
+    CHECK(surface.log.warnings.at(0).message ==
+          "the file has no object of type 'model': others are read as such (1 'surface')");
+}
+
+TEST_CASE("3MF keeps its metadata and part numbers, and glTF gets them", "[io]") {
+    std::string text =
+        model(R"(<object id="1" partnumber="A-17">)" + one_triangle + "</object>", R"(<item objectid="1"/>)");
+    text.insert(text.find("<resources>"), R"(<metadata name="Title">Bust &amp; base</metadata>
+<metadata name="Copyright">Museum X</metadata><metadata name="LicenseTerms">CC BY 4.0</metadata>
+<metadata name="Application">another</metadata>)");
+    const Loaded loaded = load(archive(text));
+    CHECK(loaded.log.warnings.empty());
+    const Scene scenes[] = {loaded.scene, trip(loaded.scene).scene};
+    for (const Scene& scene : scenes) {
+        const auto files = io::codec_named("glb")->write(scene, {}).files;
+        const std::string_view glb(reinterpret_cast<const char*>(files.at(0).bytes.data()),
+                                   files.at(0).bytes.size());
+        for (const char* kept : {R"("copyright":"Museum X")", R"("Title":"Bust & base")",
+                                 R"("LicenseTerms":"CC BY 4.0")", R"("extras":{"partnumber":"A-17"})"}) {
+            INFO(kept);
+            CHECK(glb.find(kept) != std::string_view::npos);
+        }
+    }
+    const Loaded other = load(archive(
+        model(R"(<object id="1">)" + one_triangle + "</object>", R"(<item objectid="1" partnumber="B"/>)")));
+    CHECK(other.log.warnings.at(0).message ==
+          "elements that cannot be kept are skipped: partnumber of item (1)");
+}
+
+TEST_CASE("materials of 3MF keep their colours beside triangles with colours of their own", "[io]") {
+    const std::string mesh = R"(<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
+<vertex x="0" y="1" z="0"/><vertex x="0" y="0" z="1"/></vertices><triangles>
+<triangle v1="0" v2="2" v3="1" pid="5" p1="0"/><triangle v1="0" v2="1" v3="3" pid="6" p1="0"/>
+<triangle v1="1" v2="2" v3="3"/></triangles></mesh>)";
+    const Loaded loaded = load(archive(model(
+        R"(<basematerials id="5"><base name="r" displaycolor="#CC0000"/></basematerials><m:colorgroup id="6">
+<m:color color="#00FF00"/></m:colorgroup><object id="1">)" +
+            mesh + "</object>",
+        R"(<item objectid="1"/>)")));
+    CHECK(loaded.log.warnings.empty());
+    const Loaded again = trip(loaded.scene);
+    CHECK(again.log.warnings.empty());
+    const Scene* const scenes[] = {&loaded.scene, &again.scene};
+    for (const Scene* scene : scenes) {
+        const Mesh& m = scene->parts.at(0).mesh;
+        REQUIRE(m.primitives.size() == 3);
+        const auto of = [&](Index f) { return m.primitives[m.primitive_of(f)]; };
+        CHECK(of(0).material == 0);
+        CHECK_FALSE(of(0).has("COLOR_0"));
+        CHECK(of(1).material == none);
+        CHECK(of(1).lists("COLOR_0"));
+        CHECK(colour_at(m, 3) == std::array<int, 4>{0, 255, 0, 255});
+        CHECK(of(2).material == none); // it has no colour, also not that of the first triangle
+        CHECK_FALSE(of(2).has("COLOR_0"));
+    }
+}
+
+TEST_CASE("broken rules of 3MF that leave a mesh are named", "[io]") {
+    const std::string plain = R"(<object id="1">)" + one_triangle + "</object>",
+                      item = R"(<item objectid="1"/>)";
+    const auto fault = [](const io::Bytes& bytes) {
+        const Loaded loaded = load(bytes);
+        CHECK(loaded.scene.parts.size() == 1);
+        REQUIRE(loaded.log.warnings.size() == 1);
+        CHECK(loaded.log.warnings[0].id == "W-3MF");
+        return loaded.log.warnings[0].message;
+    };
+    CHECK(fault(archive(model(R"(<object id="1" pid="9" pindex="0">)" + one_triangle + "</object>", item))) ==
+          "object 1 names the properties 9, which do not exist: it has no colour there");
+    CHECK(fault(archive(model(R"(<m:colorgroup id="1"><m:color color="#00FF00"/></m:colorgroup>)" + plain,
+                              item))) == "line 2: two resources have the id 1, which must be unique");
+    CHECK(fault(archive(model(plain, ""))) ==
+          "it builds nothing: the objects that no other object uses are read");
+    const std::string type = R"(Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")";
+    const std::string relations =
+        fmt::format(R"(<Relationships><Relationship Id="a" Target="/3D/3dmodel.model" {0}/>
+<Relationship Id="b" Target="/3D/b.model" {0}/></Relationships>)",
+                    type);
+    CHECK(fault(io::threemf::make_archive({file("_rels/.rels", relations),
+                                           file("3D/3dmodel.model", model(plain, item)),
+                                           file("3D/b.model", model(plain, item))})) ==
+          "its relations name 2 models: only '/3D/3dmodel.model' is read");
+}
+
 TEST_CASE("a broken 3MF is refused with its place", "[io]") {
     const std::string object = "<object id=\"1\">" + one_triangle + "</object>";
     const std::string item = "<item objectid=\"1\"/>";

@@ -337,6 +337,23 @@ TEST_CASE("subtree files that are too short, lie or ask for too much are refused
     CHECK(has(refused(json(R"({"constant": 1})"), "0"), "at least one level"));
 }
 
+TEST_CASE("a tileset is recognised by its members, and a glTF by its own", "[io][tileset]") {
+    const auto codec = [](const std::string& text) {
+        const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+        const io::Codec* found = io::sure_codec(io::Input::of("a.json", {bytes.begin(), bytes.end()}));
+        return found ? found->name : "none";
+    };
+    const std::string rest = R"("geometricError":1,"root":{"boundingVolume":{"box":[]},"geometricError":0}})";
+    CHECK(codec(R"({"asset":{"version":"1.1"},)" + rest) == "3d-tiles");
+    CHECK(codec("\xEF\xBB\xBF {\"asset\":{\"version\":\"1.1\"}," + rest) == "3d-tiles");
+    // A schema that is longer than 64 kB, with a text that looks like another member.
+    const std::string schema =
+        R"("schema":{"id":"\"nodes\":","description":")" + std::string(70000, 'x') + "\"},";
+    CHECK(codec(R"({"asset":{"version":"1.1"},)" + schema + rest) == "3d-tiles");
+    CHECK(codec(R"({"asset":{"version":"2.0","extras":{"geometricError":1,"root":2}},"nodes":[]})") ==
+          "gltf");
+}
+
 TEST_CASE("what is not read of a tileset is refused by name", "[io][tileset]") {
     const TemporaryDirectory folder;
     const auto refused = [&](const std::string& root) {

@@ -23,7 +23,7 @@ struct KindOfImage {
 constexpr KindOfImage kinds_by_extension[] = {{"image/webp", "EXT_texture_webp"},
                                               {"image/ktx2", "KHR_texture_basisu"}};
 
-/// owner[key] if it is an object, else null.
+/// owner[key] if it is an object, otherwise null.
 const Json* object_at(const Json& owner, const char* key) {
     if (!owner.is_object()) return nullptr;
     const auto found = owner.find(key);

@@ -1,12 +1,14 @@
 #include "io/gltf/document/builder.hpp"
 
 #include "base/fast_json.hpp"
+#include "base/math/random.hpp"
 #include "base/progress.hpp"
 #include "io/gltf/encode/encode.hpp"
 #include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace facetmill::io::gltf {
 
@@ -45,7 +47,18 @@ void erase_positions(std::vector<std::size_t>& list, const Numbers& positions) {
     list = std::move(kept);
 }
 
-// Visits references to single items, see the end of this file.
+Json with_view(std::size_t view, Json accessor) {
+    Json with = object_of("bufferView", view);
+    for (auto& [key, value] : accessor.get_ref<Json::object_t&>()) with[key] = std::move(value);
+    return with;
+}
+
+std::uint64_t hash_of(const Bytes& bytes, const std::string& text) {
+    const std::hash<std::string_view> hash;
+    return hashed(hash(as_text(bytes)), hash(text));
+}
+
+// References to single items, see the end of this file.
 using Visit = std::function<void(Json&)>;
 void primitive_accessors(Json& primitive, const Visit& visit);
 void primitive_views(Json& primitive, const Visit& visit);
@@ -87,11 +100,57 @@ std::size_t Builder::add_view(Bytes bytes, int target, std::size_t stride) {
 std::size_t Builder::add_accessor(Json accessor) { return add("accessors", std::move(accessor)); }
 
 std::size_t Builder::add_stored(Stored stored, int target) {
+    if (target != 0)
+        return add_shared(std::move(stored.bytes), target, stored.stride, std::move(stored.accessor),
+                          stored.filter);
     const std::size_t view = add_view(std::move(stored.bytes), target, stored.stride);
     if (!stored.filter.empty()) filters_[view] = std::move(stored.filter);
-    Json accessor = object_of("bufferView", view);
-    for (auto& [key, value] : stored.accessor.get_ref<Json::object_t&>()) accessor[key] = std::move(value);
-    return add_accessor(std::move(accessor));
+    return add_accessor(with_view(view, std::move(stored.accessor)));
+}
+
+std::size_t Builder::add_shared(Bytes bytes, int target, std::size_t stride, Json accessor,
+                                const std::string& filter) {
+    auto& known = shared_accessors_[hash_of(bytes, to_string(accessor))];
+    const auto same = [&](std::size_t a) {
+        const Json& other = json_["accessors"][a];
+        const auto view = other["bufferView"].get<std::size_t>();
+        const auto of = filters_.find(view);
+        const Json& view_json = json_["bufferViews"][view];
+        return other == with_view(view, accessor) && new_views_[view] == bytes &&
+               view_json.value("target", 0) == target &&
+               view_json.value("byteStride", std::size_t{0}) == stride &&
+               (of == filters_.end() ? filter.empty() : of->second == filter);
+    };
+    const auto found = std::find_if(known.begin(), known.end(), same);
+    if (found != known.end()) return *found;
+    const std::size_t view = add_view(std::move(bytes), target, stride);
+    if (!filter.empty()) filters_[view] = filter;
+    known.push_back(add_accessor(with_view(view, std::move(accessor))));
+    return known.back();
+}
+
+std::size_t Builder::add_positions(Stored stored, std::vector<Vec3> exact) {
+    const std::size_t before = count_of(json_, "accessors");
+    std::size_t added = add_shared(Bytes(stored.bytes), array_buffer, stored.stride, stored.accessor);
+    if (added < before) {
+        const auto other = exact_positions.find(added);
+        if (other != exact_positions.end() && other->second == exact) return added;
+        const std::size_t view = add_view(std::move(stored.bytes), array_buffer, stored.stride);
+        added = add_accessor(with_view(view, std::move(stored.accessor)));
+    }
+    exact_positions[added] = std::move(exact);
+    return added;
+}
+
+Json Builder::add_compressed(Bytes bytes, const std::string& names, const std::function<Json()>& make) {
+    auto& known = compressed_[names];
+    for (const auto& [view, primitive] : known)
+        if (new_views_[view] == bytes) return primitive;
+    Json primitive = make();
+    const std::size_t view = add_view(std::move(bytes));
+    primitive["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = view;
+    known.emplace_back(view, primitive);
+    return primitive;
 }
 
 void Builder::release(const Json& primitive) {
@@ -138,7 +197,7 @@ void Builder::drop_released() {
     other_views(json_, [&](Json& r) { keep(dead_views, r); });
     const Numbers accessors = numbers_of(dead_accessors), views = numbers_of(dead_views);
 
-    if (has_unknown_extensions(json_)) {
+    if (may_name_accessors(json_)) {
         // Unknown extensions may refer to accessors and views by number, so dead ones stay as empty
         // placeholders.
         for (const std::size_t a : accessors)
@@ -165,7 +224,7 @@ std::vector<std::optional<Packing>> Builder::packings_now() const {
 
 /// Merges new views of the same kind, which needs less JSON and compresses better.
 void Builder::join_views() {
-    if (has_unknown_extensions(json_)) return; // they may refer to views by number
+    if (may_name_accessors(json_)) return;
     const auto how = packings_now();
     std::map<std::string, std::size_t> first;
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> moved; // target view and byte offset
@@ -371,14 +430,21 @@ void primitive_accessors(Json& primitive, const Visit& visit) {
 }
 
 bool known(const std::string& name) {
-    static const std::set<std::string, std::less<>> names = {
-        "KHR_draco_mesh_compression", "KHR_mesh_quantization",
-        "EXT_meshopt_compression",    "KHR_meshopt_compression",
-        "EXT_mesh_manifold",          "EXT_mesh_gpu_instancing",
-        "KHR_lights_punctual",        "KHR_xmp_json_ld",
-        "KHR_node_visibility",        "MSFT_lod",
-        "MSFT_texture_dds",           "EXT_lights_image_based",
-        "EXT_mesh_features",          "EXT_structural_metadata"};
+    static const std::set<std::string, std::less<>> names = {"KHR_draco_mesh_compression",
+                                                             "KHR_mesh_quantization",
+                                                             "EXT_meshopt_compression",
+                                                             "KHR_meshopt_compression",
+                                                             "EXT_mesh_manifold",
+                                                             "EXT_mesh_gpu_instancing",
+                                                             "EXT_instance_features",
+                                                             "KHR_lights_punctual",
+                                                             "KHR_xmp_json_ld",
+                                                             "KHR_node_visibility",
+                                                             "MSFT_lod",
+                                                             "MSFT_texture_dds",
+                                                             "EXT_lights_image_based",
+                                                             "EXT_mesh_features",
+                                                             "EXT_structural_metadata"};
     const auto starts = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
     return names.count(name) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_");
@@ -452,20 +518,51 @@ void visit_mesh_references(Json& document, const Visit& visit) {
     each(member(&document, "nodes"), [&](Json& node) { reference(member(&node, "mesh"), visit); });
 }
 
-bool has_unknown_extensions(const Json& json) {
+namespace {
+
+/// True if the content may name an item: by a number, or by a JSON pointer.
+bool may_name(const Json& content) {
+    if (content.is_number_integer()) return true;
+    if (content.is_string()) return content.get_ref<const std::string&>().starts_with('/');
+    if (!content.is_structured()) return false;
+    return std::any_of(content.begin(), content.end(), may_name);
+}
+
+/// True if any extension matches whose content may name an item.
+template <class Matches>
+bool any_extension(const Json& json, const Matches& matches) {
     if (json.is_object()) {
         for (const auto& [key, value] : json.get_ref<const Json::object_t&>()) {
             if (!value.is_structured() || key == "extras") continue;
             if (key == "extensions" && value.is_object())
                 for (const auto& [name, content] : value.items())
-                    if (!known(name)) return true;
-            if (has_unknown_extensions(value)) return true;
+                    if (matches(name) && may_name(content)) return true;
+            if (any_extension(value, matches)) return true;
         }
     } else if (json.is_array()) {
         for (const auto& value : json)
-            if (value.is_structured() && has_unknown_extensions(value)) return true;
+            if (value.is_structured() && any_extension(value, matches)) return true;
     }
     return false;
+}
+
+/// Extensions that refer to nodes, meshes, materials and others, never to accessors and views.
+bool names_no_accessors(const std::string& name) {
+    static const std::set<std::string, std::less<>> names = {
+        "KHR_animation_pointer", "KHR_interactivity",   "KHR_node_selectability",
+        "KHR_node_hoverability", "KHR_implicit_shapes", "KHR_physics_rigid_bodies"};
+    return names.contains(name);
+}
+
+} // namespace
+
+bool has_unknown_extensions(const Json& document) {
+    return any_extension(document, [](const std::string& name) { return !known(name); });
+}
+
+bool may_name_accessors(const Json& document) {
+    return any_extension(document,
+                         [](const std::string& name) { return !known(name) && !names_no_accessors(name); });
 }
 
 void erase_items(Json& list, const std::set<std::size_t>& items,

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <set>
+#include <unordered_map>
 
 namespace facetmill::io::gltf {
 
@@ -30,8 +31,17 @@ class Builder {
     /// Adds bytes as a buffer view; omits target and stride if they are 0. Returns its index.
     std::size_t add_view(Bytes bytes, int target = 0, std::size_t stride = 0);
     std::size_t add_accessor(Json accessor);
-    /// Adds vertex data as a separate view with an accessor. Returns the accessor's index.
+    /// Adds vertex data as a separate view with an accessor. Returns the accessor's index. Equal data is
+    /// stored once.
     std::size_t add_stored(Stored stored, int target);
+    /// Adds indices or vertex data, and an accessor for them; equal ones are stored once.
+    std::size_t add_shared(Bytes bytes, int target, std::size_t stride, Json accessor,
+                           const std::string& filter = {});
+    /// Adds positions, with their values in double precision. Equal ones are stored once.
+    std::size_t add_positions(Stored stored, std::vector<Vec3> exact);
+    /// Adds the attributes and the compressed view of a primitive; equal ones of equal names are stored once.
+    /// make: makes the accessors the first time.
+    Json add_compressed(Bytes bytes, const std::string& names, const std::function<Json()>& make);
 
     /// Positions in double precision for later rounding, by accessor.
     std::map<std::size_t, std::vector<Vec3>> exact_positions;
@@ -65,9 +75,12 @@ class Builder {
 
     Json original_, json_;
     std::vector<Bytes> no_buffers_;
-    std::map<std::size_t, Bytes> new_views_;     // by view index at the time of adding
+    std::map<std::size_t, Bytes> new_views_;     // new views, by view index at the time of adding
     std::map<std::size_t, std::string> filters_; // filters of new views
     Source source_, current_;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> shared_accessors_; // by hash
+    /// By names: the view and the primitive.
+    std::map<std::string, std::vector<std::pair<std::size_t, Json>>> compressed_;
     std::vector<std::size_t> old_view_; // the original index of each remaining view
     std::set<std::size_t> released_accessors_, released_views_;
     MeshoptSettings meshopt_;
@@ -81,8 +94,11 @@ void visit_accessor_references(Json& document, const std::function<void(Json&)>&
 void visit_view_references(Json& document, const std::function<void(Json&)>& visit);
 void see_view_references(const Json& document, const std::function<void(const Json&)>& see);
 void visit_mesh_references(Json& document, const std::function<void(Json&)>& visit);
-/// True if the document has an extension with unknown references: then no index may change.
+/// True if the document has an extension with unknown references: then no index may change. An extension
+/// without integers and pointers has none.
 bool has_unknown_extensions(const Json& document);
+/// True if such an extension may refer to accessors or buffer views, too.
+bool may_name_accessors(const Json& document);
 /// Erases items of a list and renumbers the references to it.
 void erase_items(Json& list, const std::set<std::size_t>& items,
                  const std::function<void(const std::function<void(Json&)>&)>& references);

@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "base/ordered_set.hpp"
+#include "base/text/words.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/images/image_files.hpp"
 #include "parallel/memory.hpp"
@@ -9,6 +10,7 @@
 #include "platform/file_status.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -18,6 +20,7 @@
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
+#include <utility>
 
 namespace facetmill::io::gltf {
 
@@ -95,8 +98,8 @@ Bytes join_glb(std::string_view json, Span binary) {
     return out;
 }
 
-// --- Only this file uses tinygltf, to resolve buffers: it decodes data URIs and calls our callbacks for
-// files. It gets one buffer at a time, never the whole document or images. Its parser does not check
+// --- Only this file uses tinygltf, to resolve buffers: tinygltf decodes data URIs and calls our callbacks
+// for files. It gets one buffer at a time, never the whole document or images. Its parser does not check
 // references, and refuses buffers that only EXT_meshopt_compression needs. Its model also loses unknown
 // contents (64-bit integers, nulls, empty objects).
 
@@ -318,6 +321,35 @@ std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary
         // A buffer without data is legal until something reads it; the reader reports it.
     }
     return buffers;
+}
+
+bool is_tileset(std::string_view json) {
+    constexpr std::array<std::string_view, 9> of_gltf{
+        "accessors", "buffers", "bufferViews", "materials", "meshes", "nodes", "scene", "scenes", "textures"};
+    json = without_byte_order_mark(json);
+    int depth = 0;
+    bool is_key = false; // the next text is a member's name
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (c == '"') {
+            const std::size_t first = ++i;
+            for (; i < json.size() && json[i] != '"'; ++i) i += json[i] == '\\';
+            if (!std::exchange(is_key, false) || i >= json.size()) continue;
+            const std::string_view key = json.substr(first, i - first);
+            if (key == "geometricError" || key == "root") return true;
+            if (std::find(of_gltf.begin(), of_gltf.end(), key) != of_gltf.end()) return false;
+        } else if (c == '{' || c == '[') {
+            if (depth++ == 0 && c == '[') return false;
+            is_key = depth == 1;
+        } else if (c == '}' || c == ']') {
+            if (--depth <= 0) return false;
+        } else if (c == ',') {
+            is_key = depth == 1;
+        } else if (depth == 0 && c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+            return false; // no object
+        }
+    }
+    return false;
 }
 
 std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log) {

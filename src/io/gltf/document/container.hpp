@@ -12,7 +12,11 @@
 namespace facetmill::io::gltf {
 
 /// The hint for glTF 1.0 files.
-inline constexpr const char* hint_for_version_1 = "gltf-pipeline writes glTF 1.0 as 2.0";
+inline constexpr const char* hint_for_version_1 =
+    "convert it to glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf";
+
+/// The message for a member that no check has covered.
+inline constexpr const char* wrong_type = "a member has another type than glTF gives it";
 
 /// Calls body, and adds the file to its errors.
 template <class Body>
@@ -21,13 +25,17 @@ template <class Body>
         return body();
     } catch (Error& e) {
         throw e.at(file_mark(input.name()));
-    } catch (const Json::exception& e) {
-        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), "", file_mark(input.name()));
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::malformed, "E-GLTF", wrong_type, "", file_mark(input.name()));
     }
 }
 
 /// True when the bytes begin with the GLB magic number.
 bool is_glb(Span bytes);
+
+/// Whether a JSON text is a tileset of 3D Tiles, which names an "asset", too: of the members of the outermost
+/// object that only one of both has, the first is the tileset's.
+bool is_tileset(std::string_view json);
 
 /// The chunks of a container, pointing into it.
 struct Chunks {

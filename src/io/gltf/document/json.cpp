@@ -176,7 +176,7 @@ bool JsonCursor::boolean_or(const char* key, bool otherwise) const {
 
 std::optional<JsonCursor> list(const Json& document, const char* name) {
     auto found = JsonCursor(document, "").find(name);
-    if (found) found->size(); // it must be an array
+    if (found) found->size(); // fails unless the value is an array
     return found;
 }
 
@@ -202,7 +202,9 @@ JsonCursor item(const Json& document, const char* name, std::size_t i) {
 std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count) {
     if (!owner.is_object()) return {};
     const auto found = owner.find(key);
-    if (found == owner.end() || !found->is_number_unsigned()) return {};
+    if (found == owner.end() || !found->is_number_integer()) return {};
+    // Numbers of a document are unsigned, those that were added may be signed.
+    if (!found->is_number_unsigned() && found->get<std::int64_t>() < 0) return {};
     const auto index = found->get<std::size_t>();
     return index < count ? std::optional(index) : std::nullopt;
 }
@@ -241,6 +243,20 @@ std::vector<std::string> keep_materials_only(Json& document) {
     if (weighs("nodes") || weighs("meshes")) lost.emplace_back("morph weights");
     for (const char* list : {"scenes", "scene", "nodes", "meshes"}) document.erase(list);
     return lost;
+}
+
+void drop_nulls(Json& json) {
+    if (json.is_object()) {
+        std::vector<std::string> nulls;
+        for (auto& [key, value] : json.get_ref<Json::object_t&>()) {
+            if (value.is_null()) nulls.push_back(key);
+            if (value.is_structured() && key != "extras" && key != "extensions") drop_nulls(value);
+        }
+        for (const std::string& key : nulls) json.erase(key);
+    } else if (json.is_array()) {
+        for (Json& value : json.get_ref<Json::array_t&>())
+            if (value.is_structured()) drop_nulls(value);
+    }
 }
 
 void erase_empty(Json& document, const char* list) {

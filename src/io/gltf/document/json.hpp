@@ -115,5 +115,8 @@ void remove_name(Json& document, const char* list, const std::string& name);
 [[nodiscard]] std::vector<std::string> keep_materials_only(Json& document);
 /// Erases an empty top-level array, because glTF forbids these.
 void erase_empty(Json& document, const char* list);
+/// Erases members that are null, except in extras and extensions. glTF has none; looking at a missing member
+/// makes one.
+void drop_nulls(Json& json);
 
 } // namespace facetmill::io::gltf

@@ -4,6 +4,7 @@
 #include "base/text/unique_names.hpp"
 #include "io/gltf/gltf.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -95,11 +96,15 @@ Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, cons
     return t;
 }
 
+Transform local_transform(const JsonCursor& node) {
+    return node.find("matrix") ? from_matrix(node) : from_parts(node);
+}
+
 std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
     std::vector<NodeFrame> frames(count_of(document, "nodes"));
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const JsonCursor node = item(document, "nodes", i);
-        frames[i].local = node.find("matrix") ? from_matrix(node) : from_parts(node);
+        frames[i].local = local_transform(node);
         if (const auto mesh = node.find("mesh"))
             frames[i].mesh = static_cast<int>(mesh->index(count_of(document, "meshes"), "mesh"));
         if (const auto skin = node.find("skin")) {
@@ -149,15 +154,31 @@ std::vector<bool> shown_nodes(const Json& document) {
     return shown;
 }
 
+std::optional<AnimatedProperty> animated_property(const JsonCursor& channel, std::size_t nodes) {
+    const JsonCursor target = channel.at("target");
+    if (target.find("node")) {
+        const std::size_t node = target.at("node").index(nodes, "node");
+        return AnimatedProperty{node, target.text_or("path", "")};
+    }
+    const auto extensions = target.find("extensions");
+    const auto pointer = extensions ? extensions->find("KHR_animation_pointer") : std::nullopt;
+    const std::string text = pointer ? pointer->text_or("pointer", "") : "";
+    constexpr std::string_view start = "/nodes/";
+    std::size_t node = 0;
+    if (!text.starts_with(start)) return {};
+    const auto [at, error] = std::from_chars(text.data() + start.size(), text.data() + text.size(), node);
+    if (error != std::errc() || *at != '/' || node >= nodes) return {};
+    return AnimatedProperty{node, std::string(at + 1)};
+}
+
 std::set<std::size_t> animated_nodes(const Json& document) {
     std::set<std::size_t> nodes;
     for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
         const JsonCursor channels = item(document, "animations", a).at("channels");
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-            const JsonCursor target = channels.at(c).at("target");
-            if (target.text_or("path", "") != "weights" && target.find("node"))
-                nodes.insert(target.at("node").index(count_of(document, "nodes"), "node"));
-        }
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            if (const auto property = animated_property(channels.at(c), count_of(document, "nodes")))
+                for (const char* path : {"translation", "rotation", "scale"})
+                    if (property->path == path) nodes.insert(property->node);
     }
     return nodes;
 }
@@ -184,36 +205,26 @@ std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames) {
     return order;
 }
 
-bool makes_triangles(const JsonCursor& primitive) {
+Drawn kind_of(const JsonCursor& primitive) {
     const auto mode = primitive.natural_or("mode", 4);
     if (mode > 6) primitive.at("mode").fail(fmt::format("{} is not a mode", mode));
-    return mode >= 4 &&
-           primitive.at("attributes").find("POSITION"); // an extension may provide positions instead
+    if (!primitive.at("attributes").find("POSITION")) return Drawn::none; // an extension may provide them
+    return mode >= 4 ? Drawn::triangles : mode >= 1 ? Drawn::lines : Drawn::points;
 }
 
-bool has_triangles(const JsonCursor& mesh) {
+Drawn kind_of_mesh(const JsonCursor& mesh) {
+    Drawn kind = Drawn::none;
     const JsonCursor primitives = mesh.at("primitives");
-    for (std::size_t i = 0; i < primitives.size(); ++i)
-        if (makes_triangles(primitives.at(i))) return true;
-    return false;
+    for (std::size_t i = 0; i < primitives.size() && kind != Drawn::triangles; ++i)
+        kind = std::max(kind, kind_of(primitives.at(i)));
+    return kind;
 }
 
-bool makes_lines(const JsonCursor& primitive) {
-    const auto mode = primitive.natural_or("mode", 4);
-    return mode >= 1 && mode <= 3 && primitive.at("attributes").find("POSITION");
-}
+bool makes_triangles(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::triangles; }
 
-bool makes_points(const JsonCursor& primitive) {
-    return primitive.natural_or("mode", 4) == 0 && primitive.at("attributes").find("POSITION");
-}
+bool has_triangles(const JsonCursor& mesh) { return kind_of_mesh(mesh) == Drawn::triangles; }
 
-bool is_of_lines(const JsonCursor& mesh) {
-    if (has_triangles(mesh)) return false;
-    const JsonCursor primitives = mesh.at("primitives");
-    for (std::size_t i = 0; i < primitives.size(); ++i)
-        if (makes_lines(primitives.at(i))) return true;
-    return false;
-}
+bool makes_lines(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::lines; }
 
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
     std::vector<Placement> all;
@@ -221,7 +232,7 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
     std::vector<char> read(count_of(document, "meshes"));
     for (std::size_t m = 0; m < read.size(); ++m) {
         const JsonCursor mesh = item(document, "meshes", m);
-        read[m] = has_triangles(mesh) || is_of_lines(mesh);
+        read[m] = kind_of_mesh(mesh) != Drawn::none;
     }
     const auto place = [&](int node, int mesh, bool skinned, const Transform& world) {
         if (!read[static_cast<std::size_t>(mesh)]) return;
@@ -283,6 +294,15 @@ std::set<int> moving_nodes(const Document& document) {
 }
 
 } // namespace
+
+bool is_without_meshes(const Scene& scene) {
+    if (!scene.parts.empty() || scene.documents.empty()) return false;
+    return std::all_of(scene.documents.begin(), scene.documents.end(), [](const auto& document) {
+        Json json = gltf::parse_document(document->json);
+        const ScopedDestroy after(json);
+        return gltf::placements(json, gltf::node_frames(json)).empty();
+    });
+}
 
 std::vector<bool> animated_parts(const Scene& scene) {
     std::vector<std::set<int>> moving;

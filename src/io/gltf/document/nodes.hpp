@@ -22,6 +22,9 @@ struct NodeFrame {
 /// Scales, then rotates by a quaternion (x, y, z, w) of any length (zero: no rotation), then translates.
 [[nodiscard]] Transform transform_of(const Vec3& move, const std::array<double, 4>& turn, const Vec3& scale);
 
+/// The transform of a node relative to its parent. Throws malformed (E-GLTF).
+[[nodiscard]] Transform local_transform(const JsonCursor& node);
+
 /// Takes a warning's id and message.
 using Warn = std::function<void(const char*, std::string)>;
 /// All nodes, by index. Throws a malformed-input error (E-NODES) for cycles, E-GLTF for invalid members.
@@ -34,10 +37,18 @@ using Warn = std::function<void(const char*, std::string)>;
 /// of detail of such a node. All nodes if the document has no scenes. Invalid references are skipped.
 [[nodiscard]] std::vector<bool> shown_nodes(const Json& document);
 
-/// The nodes whose translation, rotation or scale an animation drives.
+/// The nodes whose translation, rotation or scale an animation drives, also by KHR_animation_pointer.
 [[nodiscard]] std::set<std::size_t> animated_nodes(const Json& document);
 
-/// A mesh with faces, otherwise lines, and its transform: a part of the scene. The writer builds the same
+/// A property that a channel of an animation drives: "scale" or, with KHR_animation_pointer, another one.
+struct AnimatedProperty {
+    std::size_t node;
+    std::string path;
+};
+/// None for channels that drive no node. Throws malformed (E-GLTF).
+[[nodiscard]] std::optional<AnimatedProperty> animated_property(const JsonCursor& channel, std::size_t nodes);
+
+/// A mesh with faces, or else lines, and its transform: one part of the scene. The writer builds the same
 /// list to find changes.
 struct Placement {
     std::string name; ///< the name of the node, otherwise of the mesh; unique in the document
@@ -48,22 +59,21 @@ struct Placement {
     std::size_t instances = 0;  ///< number of instances by EXT_mesh_gpu_instancing
     Transform largest_instance; ///< relative to the node
 };
-/// The placements, one for each node with a mesh of triangles or lines, in node order.
+/// One for each node with a mesh that has positions, in node order.
 [[nodiscard]] std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
 
 /// The materials of these placements; all materials if there are no placements, as in a document of points.
 [[nodiscard]] std::set<std::size_t> drawn_materials(const Json& document,
                                                     const std::vector<Placement>& placements);
 
-/// True for primitives that make triangles (lists, strips and fans) of positions.
+/// The kinds of primitives with positions, also of lists, strips and fans; none: without positions.
+enum class Drawn { none, points, lines, triangles };
+[[nodiscard]] Drawn kind_of(const JsonCursor& primitive);
+/// What a part has of a mesh: triangles if there are any, else lines, else points.
+[[nodiscard]] Drawn kind_of_mesh(const JsonCursor& mesh);
 bool makes_triangles(const JsonCursor& primitive);
 bool has_triangles(const JsonCursor& mesh);
-/// True for primitives that make lines (lists, loops and strips) of positions.
 bool makes_lines(const JsonCursor& primitive);
-/// True for primitives of points that have positions.
-bool makes_points(const JsonCursor& primitive);
-/// True if a part consists of the mesh's lines: it has lines and no triangles.
-bool is_of_lines(const JsonCursor& mesh);
 
 /// The document on which a written scene is based.
 struct BaseDocument {

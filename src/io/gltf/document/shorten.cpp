@@ -91,20 +91,19 @@ void round_place(Json& node, const Tolerance& tolerance) {
 
 /// Shortens nodes' numbers to the digits that matter in a scene of this size. Nodes far from their
 /// coordinate origin need more digits.
-void shorten_nodes(Json& document, const Box& bounds) {
+void shorten_nodes(Json& document, const Box& bounds, const std::vector<Transform>& worlds) {
     if (!document.contains("nodes")) return;
     const auto frames = node_frames(document);
+    const auto world = [&](std::size_t n) { return worlds.empty() ? frames[n].world : worlds[n]; };
     const double size = bounds.empty() ? 0 : bounds.diagonal();
     constexpr double ratio = 1e-8;            // times the diagonal: a thousandth of a step of 17 bits
     const auto stretch = [&](std::size_t n) { // scale of the translation's space
-        return frames[n].parent < 0
-                   ? 1.0
-                   : greatest_stretch(frames[static_cast<std::size_t>(frames[n].parent)].world);
+        return frames[n].parent < 0 ? 1.0
+                                    : greatest_stretch(world(static_cast<std::size_t>(frames[n].parent)));
     };
     double reach = size;
     for (std::size_t n = 0; n < frames.size(); ++n)
-        reach = std::max(
-            {reach, length(frames[n].world.point({})), stretch(n) * length(frames[n].local.point({}))});
+        reach = std::max({reach, length(world(n).point({})), stretch(n) * length(frames[n].local.point({}))});
     const bool known = size > 0 && std::isfinite(reach);
     const bool pointers = uses_extension(document, "KHR_animation_pointer");
     const auto animated = animated_nodes(document);
@@ -146,8 +145,8 @@ void drop_zero_offsets(Json& document) {
 
 } // namespace
 
-void shorten(Json& document, const Box& bounds) {
-    shorten_nodes(document, bounds);
+void shorten(Json& document, const Box& bounds, const std::vector<Transform>& worlds) {
+    shorten_nodes(document, bounds, worlds);
     if (document.contains("materials")) each_real(document["materials"], as_single);
     drop_zero_offsets(document);
     erase_default_members(document);

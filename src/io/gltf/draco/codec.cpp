@@ -14,7 +14,7 @@ namespace facetmill::io {
 
 namespace {
 
-/// Attribute names are glTF's if Draco knows the kind, else from the metadata.
+/// Attribute names are glTF's if Draco knows the kind, otherwise from the metadata.
 std::string name_of(const DracoColumn& column, std::set<std::string>& taken) {
     std::string stem = column.name;
     if (column.kind == DracoKind::normal && !taken.count("NORMAL"))
@@ -141,6 +141,7 @@ void leave_degenerate(DracoInput& input, const DracoSettings& settings, Written&
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Mesh mesh = joined(scene);
+    move_colours_to_wedges(mesh);
     warn_of_nan(zero_nan(mesh), "Draco", written.warnings);
     DracoInput input;
     input.triangles = mesh.corners;
@@ -166,6 +167,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             input.columns.push_back(to_column(mesh, a));
     }
     leave_documents(written, scene, "Draco");
+    warn_of_dropped(written, scene, "Draco");
+    warn_of_textures(written, scene, "Draco");
+    warn_of_colours(written, scene, "Draco");
     warn_of_point_materials(written, scene, "Draco");
     if (!scene.materials.empty())
         written.changes.push_back(

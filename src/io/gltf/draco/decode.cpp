@@ -116,7 +116,7 @@ std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
     return count;
 }
 
-/// Refuses input that the library's k-d tree decoder does not check. It may have attributes without
+/// Refuses input that the library's k-d tree decoder does not check. The input may have attributes without
 /// components, or more points in the tree than in the header, which would overflow memory. The buffer is
 /// positioned after the number of points.
 void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {

@@ -72,9 +72,9 @@ void set_draco_grid(const Mesh& mesh, DracoInput& input);
 /// Sets the grid step to 1. Coordinates must be integers at most 2^bits - 1 from the origin.
 void set_whole_steps(DracoInput& input, int bits);
 
-/// Widens a grid with this many bits until its steps have this length. Never narrows the grid. Does nothing
-/// for steps below a millionth, the library's stored precision.
-void widen_draco_grid(DracoInput& input, double step, int bits);
+/// Sets the grid with this many bits to the origin and the step of a lattice that other meshes share. If it
+/// does not reach the mesh from there, only its steps become as long. Does nothing without a step.
+void set_draco_lattice(const Mesh& mesh, const Vec3& origin, double step, DracoInput& input, int bits);
 
 /// Marks faces that repeat a vertex, which Edgebreaker cannot store; three corners each.
 [[nodiscard]] std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,

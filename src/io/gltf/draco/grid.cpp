@@ -4,6 +4,7 @@
 #include "io/gltf/draco/quantise.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace facetmill::io {
@@ -28,11 +29,23 @@ void set_whole_steps(DracoInput& input, int bits) {
     input.range = input.extent = static_cast<float>((std::int64_t{1} << bits) - 1);
 }
 
-void widen_draco_grid(DracoInput& input, double step, int bits) {
+void set_draco_lattice(const Mesh& mesh, const Vec3& origin, double step, DracoInput& input, int bits) {
     const auto range = static_cast<float>(step * (std::ldexp(1.0, bits) - 1));
-    if (!(range > input.range) || !std::isfinite(range)) return;
+    if (!(range > 0) || !std::isfinite(range)) return;
+    const Box box = mesh.bounds();
+    const float stored = storable_above(range);
+    std::array<float, 3> low{};
+    bool within = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = storable_below(std::min(static_cast<float>(origin[i]), input.origin[i]));
+        within = within && static_cast<float>(box.max[i]) - low[i] <= stored;
+    }
+    if (within)
+        std::copy(low.begin(), low.end(), input.origin);
+    else if (!(range > input.range)) // the grid of the lattice's origin does not reach the mesh
+        return;
     input.extent = range;
-    input.range = storable_above(range);
+    input.range = stored;
 }
 
 } // namespace facetmill::io

@@ -96,18 +96,17 @@ Json index_accessor(std::size_t count, bool wide) {
 
 std::size_t add_indices(Builder& builder, const Table& table) {
     const bool wide = needs_wide(table.wedges.size());
-    Json accessor = {{"bufferView", builder.add_view(index_bytes(table.indices, wide), element_buffer)}};
-    accessor.update(index_accessor(table.indices.size(), wide));
-    return builder.add_accessor(std::move(accessor));
+    return builder.add_shared(index_bytes(table.indices, wide), element_buffer, 0,
+                              index_accessor(table.indices.size(), wide));
 }
 
 std::size_t add_positions(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges, bool exact) {
-    const std::size_t added = add_vertex_data(builder, positions_of(mesh, wedges), 3, false, true);
-    if (!exact) return added;
-    std::vector<Vec3>& positions = builder.exact_positions[added];
+    Stored stored = plain(positions_of(mesh, wedges), 3, false, true);
+    if (!exact) return builder.add_stored(std::move(stored), array_buffer);
+    std::vector<Vec3> positions;
     positions.reserve(wedges.size());
     for (const Index w : wedges) positions.push_back(mesh.positions[mesh.vertex_of_wedge(w)]);
-    return added;
+    return builder.add_positions(std::move(stored), std::move(positions));
 }
 
 Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
@@ -119,6 +118,14 @@ Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
                 add_vertex_data(builder, gathered(mesh, column, table.wedges), column.data.components,
                                 column.data.normalised, false);
     return attributes;
+}
+
+bool is_zero(const AttributeData& data) {
+    return std::visit(
+        [](const auto& numbers) {
+            return std::all_of(numbers.begin(), numbers.end(), [](auto x) { return x == 0; });
+        },
+        data);
 }
 
 /// The primitive's material, extras and extensions from the source.
@@ -209,6 +216,7 @@ void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tab
             primitive["attributes"][column.semantic] = accessors[column.semantic];
         }
         if (!targets.is_null()) primitive["targets"] = targets;
+        drop_baseless_targets(builder, primitive);
         Json accessor = {{"bufferView", view}, {"byteOffset", offset}};
         accessor.update(index_accessor(table.indices.size(), wide));
         offset += table.indices.size() * (wide ? 4 : 2);
@@ -284,11 +292,38 @@ Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& 
         if (column.target < 0) continue;
         if (targets.is_null()) targets = Json::array();
         while (targets.size() <= static_cast<std::size_t>(column.target)) targets.push_back(Json::object());
+        const AttributeData data = gathered(mesh, column, wedges);
+        const bool bounds = column.semantic == "POSITION";
+        // An accessor without a view is all zeros, as normals often are that an exporter adds.
         targets[static_cast<std::size_t>(column.target)][column.semantic] =
-            add_vertex_data(builder, gathered(mesh, column, wedges), column.data.components,
-                            column.data.normalised, column.semantic == "POSITION");
+            is_zero(data)
+                ? builder.add_accessor(
+                      accessor_json(data, column.data.components, column.data.normalised, bounds))
+                : add_vertex_data(builder, data, column.data.components, column.data.normalised, bounds);
     }
     return targets;
+}
+
+void drop_baseless_targets(Builder& builder, Json& primitive) {
+    if (!primitive.contains("targets")) return;
+    const Json& attributes = primitive["attributes"];
+    for (Json& target : primitive["targets"]) {
+        Json kept = Json::object();
+        for (const auto& [semantic, accessor] : target.items()) {
+            if (attributes.contains(semantic))
+                kept[semantic] = accessor;
+            else
+                builder.release({{"attributes", {{"baseless", accessor}}}});
+        }
+        if (kept.empty() && !target.empty()) {
+            const Json& like = builder.json()["accessors"][attributes["POSITION"].get<std::size_t>()];
+            const Json zero = {0, 0, 0};
+            Json zeros = {{"componentType", int(float32)}, {"count", like["count"]}, {"type", "VEC3"}};
+            zeros["min"] = zeros["max"] = zero;
+            kept["POSITION"] = builder.add_accessor(std::move(zeros));
+        }
+        target = std::move(kept);
+    }
 }
 
 bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
@@ -308,6 +343,8 @@ Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Colu
     constexpr int points = 0;
     primitive["mode"] = points;
     primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
+    const Json targets = add_targets(builder, mesh, columns, table.wedges);
+    if (!targets.is_null()) primitive["targets"] = targets;
     return primitive;
 }
 
@@ -331,6 +368,7 @@ void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& co
         primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
         const Json targets = add_targets(builder, mesh, columns, table.wedges);
         if (!targets.is_null()) primitive["targets"] = targets;
+        drop_baseless_targets(builder, primitive);
         primitive["indices"] = add_indices(builder, table);
         out.primitives.push_back(std::move(primitive));
     }
@@ -344,8 +382,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     Mesh cut;
     if (!given.all_triangles()) cut = triangles_of(given);
     const Mesh& mesh = given.all_triangles() ? given : cut;
-    if (mesh.vertex_count() == 0 || (mesh.face_count() == 0 && mesh.lines.empty() && !settings.points))
-        return out;
+    if (mesh.vertex_count() == 0) return out;
     require_floats(mesh, fmt::format("part '{}'", settings.name));
     const auto columns = columns_of(mesh, settings.columns, written.changes);
     for (const auto& column : columns)
@@ -376,6 +413,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
             primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
             const Json targets = add_targets(builder, mesh, columns, table.wedges);
             if (!targets.is_null()) primitive["targets"] = targets;
+            drop_baseless_targets(builder, primitive);
             primitive["indices"] = add_indices(builder, table);
         }
         out.primitives.push_back(std::move(primitive));

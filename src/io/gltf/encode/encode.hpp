@@ -13,7 +13,7 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
-    double draco_step = 0;                     ///< step for positions, if larger than the step of the bits
+    Lattice lattice{};                         ///< of positions under Draco; without a step: of the mesh
     QuantizeSettings quantize;                 ///< later rounding of attributes
     bool filters = false;                      ///< rounding will use meshopt's filters
     bool manifold = false;                     ///< write EXT_mesh_manifold
@@ -21,7 +21,6 @@ struct EncodeSettings {
     bool keep_exact = false;                   ///< also stores double positions in Builder::exact_positions
     bool whole_positions = false;              ///< see WriteSettings::whole_positions
     bool keep_features = true;                 ///< the document has the metadata that primitives refer to
-    bool points = false;                       ///< writes meshes without faces as points
     ColumnSettings columns;
     std::string name; ///< the part's name, for messages
     /// The document's index of a scene material; -1: none.
@@ -38,7 +37,7 @@ struct EncodedMesh {
     VertexCacheUse cache;          ///< not set with Draco
 };
 
-/// Triangulates polygons. Positions become float32 with min and max; indices become uint16 if they fit, else
+/// Triangulates polygons. A mesh without faces and lines is written as points. Positions become float32 with min and max; indices become uint16 if they fit, else
 /// uint32. Degenerate faces are kept, but Draco drops them unless it must keep them (W-FACES). Unused wedges
 /// are dropped. Throws a stage error (E-RANGE) when a position does not fit float32.
 [[nodiscard]] EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings,
@@ -74,6 +73,9 @@ std::size_t add_vertex_data(Builder& builder, const AttributeData& data, int com
 /// The morph target accessors for these wedges, as the primitive's "targets"; null without targets.
 Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
                  const std::vector<Index>& wedges);
+/// glTF displaces only attributes that the primitive has. Drops the other displacements of its targets; a
+/// target that would become empty displaces positions by zero.
+void drop_baseless_targets(Builder& builder, Json& primitive);
 /// True if the primitive had the column, or the column is new.
 bool has_column(const Mesh& mesh, Index primitive, const Column& column);
 

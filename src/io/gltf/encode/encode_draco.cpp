@@ -86,7 +86,8 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     DracoInput input;
     set_draco_grid(mesh, input); // uses the whole mesh, so that points on common borders match
     if (settings.whole_positions) set_whole_steps(input, settings.draco.position_bits);
-    widen_draco_grid(input, settings.draco_step, settings.draco.position_bits);
+    set_draco_lattice(mesh, settings.lattice.origin, settings.lattice.step, input,
+                      settings.draco.position_bits);
     set_positions(mesh, table, input);
     input.triangles = table.indices;
     std::vector<const Column*> used;
@@ -99,24 +100,34 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
     }
     DracoOutput output = encode_draco(input, settings.draco);
 
-    Json ids = object_of("POSITION", output.position_id);
-    const auto& positions = output.positions;
-    primitive["attributes"] =
-        object_of("POSITION", builder.add_accessor(accessor_json(positions.data, 3, false, true)));
-    for (std::size_t c = 0; c < used.size(); ++c) {
-        const auto& decoded = decoded_column(output, output.ids[c]);
-        ids[used[c]->semantic] = output.ids[c];
-        primitive["attributes"][used[c]->semantic] = builder.add_accessor(
-            accessor_json(decoded.data, decoded.components, used[c]->data.normalised, false));
-    }
-    const bool wide = output.decoded->points > 65535;
-    primitive["indices"] =
-        builder.add_accessor(object_of("componentType", wide ? int(uint32) : int(uint16), "count",
-                                       output.decoded->triangles.size(), "type", "SCALAR"));
-    if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
+    const auto accessors = [&] {
+        Json ids = object_of("POSITION", output.position_id), attributes = Json::object();
+        attributes["POSITION"] = builder.add_accessor(accessor_json(output.positions.data, 3, false, true));
+        for (std::size_t c = 0; c < used.size(); ++c) {
+            const auto& decoded = decoded_column(output, output.ids[c]);
+            ids[used[c]->semantic] = output.ids[c];
+            attributes[used[c]->semantic] = builder.add_accessor(
+                accessor_json(decoded.data, decoded.components, used[c]->data.normalised, false));
+        }
+        const bool wide = output.decoded->points > 65535;
+        Json made = object_of("attributes", std::move(attributes));
+        made["indices"] =
+            builder.add_accessor(object_of("componentType", wide ? int(uint32) : int(uint16), "count",
+                                           output.decoded->triangles.size(), "type", "SCALAR"));
+        made["extensions"]["KHR_draco_mesh_compression"]["attributes"] = std::move(ids);
+        return made;
+    };
     if (settings.draco.keep_decoded) builder.decoded.add(output.bytes, output.decoded);
+    std::string names;
+    for (const Column* column : used) names += column->semantic + " ";
+    const Json made = builder.add_compressed(std::move(output.bytes), names, accessors);
+    primitive["attributes"] = made["attributes"];
+    primitive["indices"] = made["indices"];
+    if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
+    drop_baseless_targets(builder, primitive);
     primitive["extensions"]["KHR_draco_mesh_compression"] =
-        object_of("bufferView", builder.add_view(std::move(output.bytes)), "attributes", std::move(ids));
+        object_of("bufferView", made["extensions"]["KHR_draco_mesh_compression"]["bufferView"], "attributes",
+                  made["extensions"]["KHR_draco_mesh_compression"]["attributes"]);
     builder.use_extension("KHR_draco_mesh_compression", true);
 }
 

@@ -45,7 +45,7 @@ Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<In
              "W-MANIFOLD",
              fmt::format("part '{}' is not a closed manifold, so EXT_mesh_manifold is not written", name),
              {},
-             ""});
+             "clean: {holes: minimal} closes it"});
         return nullptr;
     }
     // The first written wedge of a vertex represents it.

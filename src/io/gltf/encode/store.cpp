@@ -2,6 +2,7 @@
 // including unchanged meshes, points and lines.
 
 #include "io/attributes.hpp"
+#include "io/gltf/contents/material_lengths.hpp"
 #include "io/gltf/encode/encode.hpp"
 #include "io/gltf/numbers/quantise.hpp"
 #include "io/gltf/read/instances.hpp"
@@ -91,7 +92,9 @@ class Store {
     std::map<std::size_t, Lattice> lattice_of_node_; ///< lattices of nodes whose parts have one
     std::vector<NodeFrame> frames_;
     std::set<std::size_t> animated_, joints_;
-    std::map<std::string, std::size_t> made_; ///< new accessors by old accessor and requested form
+    std::set<std::size_t> fixed_;             ///< meshes that extensions use by themselves, such as colliders
+    std::vector<double> growth_;              ///< by mesh, of its coordinates
+    std::map<std::string, std::size_t> made_; ///< by accessor and requested form
 };
 
 void Store::keep(const std::string& attribute, std::string why) {
@@ -154,10 +157,25 @@ std::optional<Stored> Store::as_floats(const Attribute& numbers, int exponent, b
 
 // --- positions
 
+/// Calls see for each member "mesh" or "node" within extensions.
+void see_extension_references(const Json& json, bool within,
+                              const std::function<void(const std::string&, std::size_t)>& see) {
+    if (json.is_array())
+        for (const Json& item : json) see_extension_references(item, within, see);
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items()) {
+        if (within && (key == "mesh" || key == "node") && value.is_number_unsigned())
+            see(key, value.get<std::size_t>());
+        if (value.is_structured() && key != "extras")
+            see_extension_references(value, within || key == "extensions", see);
+    }
+}
+
 /// The reason why a node cannot hold the grid of its mesh; null if it can.
 const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid) {
     if (uses_extension(json_, "KHR_animation_pointer"))
         return "stays float32, because KHR_animation_pointer may drive its nodes";
+    if (fixed_.contains(mesh)) return "stays float32, because an extension uses the mesh without its node";
     if (nodes_[mesh].empty()) return "stays float32, because no node could hold its grid";
     for (const std::size_t n : nodes_[mesh]) {
         const Json& node = json_["nodes"][n];
@@ -422,6 +440,7 @@ void Store::store_mesh(std::size_t mesh) {
         json_["meshes"][mesh]["primitives"][p] = std::move(stored);
     }
     store_manifold(json_["meshes"][mesh]);
+    if (grid) growth_[mesh] = 1 / grid->step;
     if (grid)
         for (const std::size_t node : nodes_[mesh]) place_grid(node, *grid);
 }
@@ -432,7 +451,8 @@ void Store::store_mesh(std::size_t mesh) {
 bool stands_alone(const Json& node) {
     if (node.contains("camera") || (node.contains("children") && !node["children"].empty())) return false;
     std::size_t of_mesh = 0;
-    for (const char* name : {"MSFT_lod", instancing_extension}) of_mesh += has_extension(node, name);
+    for (const char* name : {"MSFT_lod", instancing_extension, instance_features})
+        of_mesh += has_extension(node, name);
     return !node.contains("extensions") || node["extensions"].size() == of_mesh;
 }
 
@@ -492,9 +512,10 @@ void Store::place_in_node(std::size_t n, const PositionGrid& grid) {
                       {"scale", three({grid.step, grid.step, grid.step})}};
         if (node.contains("name")) below["name"] = node["name"];
         node.erase("mesh");
-        if (has_extension(node, instancing_extension)) {
-            below["extensions"][instancing_extension] = node["extensions"][instancing_extension];
-            node["extensions"].erase(instancing_extension);
+        for (const char* name : {instancing_extension, instance_features}) {
+            if (!has_extension(node, name)) continue;
+            below["extensions"][name] = node["extensions"][name];
+            node["extensions"].erase(name);
             if (node["extensions"].empty()) node.erase("extensions");
         }
         const std::size_t child = builder_.add("nodes", std::move(below));
@@ -524,11 +545,22 @@ void Store::run() {
     frames_ = node_frames(json_);
     animated_ = animated_nodes(json_);
     nodes_.resize(count_of(json_, "meshes"));
+    growth_.resize(nodes_.size(), 1);
     for (std::size_t n = 0; n < frames_.size(); ++n)
         if (frames_[n].mesh >= 0) nodes_[static_cast<std::size_t>(frames_[n].mesh)].push_back(n);
+    for (const char* list : {"extensions", "scenes", "nodes", "meshes"})
+        if (json_.contains(list))
+            see_extension_references(json_[list], list == std::string_view("extensions"),
+                                     [&](const std::string& key, std::size_t i) {
+                                         if (key == "mesh") fixed_.insert(i);
+                                         if (key == "node" && i < frames_.size() && frames_[i].mesh >= 0)
+                                             fixed_.insert(static_cast<std::size_t>(frames_[i].mesh));
+                                     });
     for (std::size_t s = 0; s < count_of(json_, "skins"); ++s)
-        for (const Json& joint : json_["skins"][s]["joints"]) joints_.insert(joint.get<std::size_t>());
+        for (const Json& joint : json_["skins"][s].value("joints", Json::array()))
+            joints_.insert(joint.get<std::size_t>());
     for (std::size_t mesh = 0; mesh < nodes_.size(); ++mesh) store_mesh(mesh);
+    scale_thickness(json_, growth_);
     if (small_integers_) builder_.use_extension("KHR_mesh_quantization", true);
 }
 

@@ -60,6 +60,18 @@ std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
         {bytes.begin(), bytes.end()}};
 }
 
+/// True if two neighbouring keys are about half a turn apart. Rounding could then change the sign of their
+/// product, and interpolation would go the other way round.
+bool has_half_turns(const Attribute& keys) {
+    constexpr double rounding = 1e-3; // of the product: ten times the error of the filter
+    for (std::size_t i = 1; i < keys.size() && keys.components == 4; ++i) {
+        double along = 0;
+        for (int c = 0; c < 4; ++c) along += keys.value(i - 1, c) * keys.value(i, c);
+        if (std::abs(along) < rounding) return true;
+    }
+    return false;
+}
+
 Attribute Streams::numbers(std::size_t index) {
     const Json reference = index;
     const Accessor a =
@@ -74,7 +86,8 @@ std::optional<Stored> Streams::stored(std::size_t index, const std::string& path
     const Attribute numbers = this->numbers(index);
     const bool floats = given["componentType"] == int(float32);
     std::optional<Stored> coded;
-    if (filters_ && floats && path == "rotation" && numbers.components == 4) coded = quaternions(numbers);
+    const bool turns = path == "turn" || (path == "rotation" && !has_half_turns(numbers));
+    if (filters_ && floats && turns && numbers.components == 4) coded = quaternions(numbers);
     if (filters_ && floats && (path == "translation" || path == "weights"))
         coded = exponential(numbers, exponent_of_range(numbers, path_bits), false);
     if (filters_ && floats && path == "place")
@@ -178,7 +191,7 @@ void Streams::store_instances(Json& attributes, bool on_grid) {
     }
     for (auto& [name, reference] : attributes.items()) {
         if (name == "ROTATION")
-            store(reference, "rotation");
+            store(reference, "turn");
         else if (name == "TRANSLATION")
             store(reference, "place", step);
         else if (name == "SCALE")

@@ -129,6 +129,7 @@ void normalise_weights(Attribute& a) {
         const double sum = double{w[0]} + w[1] + w[2] + w[3];
         if (sum > 0 && (sum < 1 - 1e-6 || sum > 1 + 1e-6))
             for (int c = 0; c < 4; ++c) w[c] = static_cast<float>(w[c] / sum);
+        if (!(sum > 0)) w[0] = 1; // such vertices follow their first joint, as in three.js
     });
 }
 

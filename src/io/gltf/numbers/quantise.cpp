@@ -115,6 +115,7 @@ void share_out(const std::vector<double>& weights, std::uint32_t whole, std::vec
     shares.assign(weights.size(), 0);
     double sum = 0;
     for (const double w : weights) sum += w;
+    if (!(sum > 0)) shares[0] = whole; // such vertices follow their first joint, as in three.js
     if (!(sum > 0) || !(sum < HUGE_VAL)) return;
     std::vector<std::pair<double, std::size_t>> rest; // negated remainders, so that the largest comes first
     std::uint32_t given = 0;

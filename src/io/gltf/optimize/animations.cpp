@@ -1,5 +1,6 @@
 // Finds animation tracks that change nothing.
 
+#include "io/gltf/contents/largest_pose.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/optimize/document_optimizer.hpp"
@@ -91,7 +92,13 @@ std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
     std::vector<Bytes> buffers = document_.buffers;
     buffers.insert(buffers.end(), added_.begin(), added_.end());
     Source source(json_, buffers);
-    std::map<std::string, int> animations_of; // number of animations per property
+    const auto frames = node_frames(json_);
+    const auto worlds = largest_worlds(source, frames);
+    const auto length_at = [&](std::size_t node) { // in the space of its translation
+        const int parent = frames[node].parent;
+        return parent < 0 ? length : length / greatest_stretch(worlds[static_cast<std::size_t>(parent)]);
+    };
+    std::map<std::string, int> animations_of; // by animated property
     for (std::size_t a = 0; a < count_of(json_, "animations"); ++a) {
         std::set<std::string> here;
         for (const Json& channel : json_["animations"][a]["channels"]) here.insert(target_of(channel));
@@ -114,7 +121,7 @@ std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
         constexpr double ratio =
             1e-5; // tolerance for scales and unit quaternions, below any rounding of positions
         return rests({"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)}, rest,
-                     path == "translation" ? length : ratio);
+                     path == "translation" ? length_at(node) : ratio);
     };
     std::size_t dropped = 0;
     for (std::size_t n = 0; n < count_of(json_, "animations"); ++n) {

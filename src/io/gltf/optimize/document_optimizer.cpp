@@ -4,6 +4,7 @@
 #include "io/gltf/contents/textures.hpp"
 #include "io/gltf/document/builder.hpp"
 #include "io/gltf/document/container.hpp"
+#include "io/gltf/document/node_references.hpp"
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/gltf.hpp"
 
@@ -57,42 +58,6 @@ void visit_sampler_references(Json& document, const Visit& visit) {
     visit_members(document, "textures", "sampler", visit);
 }
 
-void each_number(Json& owner, const char* key, const Visit& visit) {
-    if (!owner.is_object() || !owner.contains(key) || !owner[key].is_array()) return;
-    for (Json& one : owner[key])
-        if (one.is_number_unsigned()) visit(one);
-}
-
-/// References to nodes other than in the hierarchy.
-void visit_named_nodes(Json& document, const Visit& visit) {
-    if (document.contains("skins"))
-        for (Json& skin : document["skins"]) {
-            each_number(skin, "joints", visit);
-            if (index_at(skin, "skeleton")) visit(skin["skeleton"]);
-        }
-    if (document.contains("animations"))
-        for (Json& animation : document["animations"])
-            for (Json& channel : animation["channels"])
-                if (index_at(channel["target"], "node")) visit(channel["target"]["node"]);
-    const Json::json_pointer lod("/extensions/MSFT_lod");
-    if (document.contains("nodes"))
-        for (Json& node : document["nodes"])
-            if (node.contains(lod)) each_number(node[lod], "ids", visit);
-}
-
-/// Calls call with each node and scene, and the key of its child nodes.
-template <class Call>
-void each_parent(Json& document, Call&& call) {
-    for (const auto& [list, key] : {std::pair("nodes", "children"), {"scenes", "nodes"}})
-        if (document.contains(list))
-            for (Json& owner : document[list]) call(owner, key);
-}
-
-void visit_node_references(Json& document, const Visit& visit) {
-    visit_named_nodes(document, visit);
-    each_parent(document, [&](Json& owner, const char* key) { each_number(owner, key, visit); });
-}
-
 /// For each item, the first item with the same text.
 std::vector<std::size_t> first_equal(const std::vector<std::string>& written) {
     std::map<std::string, std::size_t> known;
@@ -129,16 +94,6 @@ void follow(const std::vector<std::size_t>& first, Json& reference) {
     if (old < first.size()) reference = first[old];
 }
 
-/// Removes dead nodes from a node's children or a scene's nodes.
-void drop_children(Json& owner, const char* key, const std::set<std::size_t>& dead) {
-    if (!owner.contains(key)) return;
-    Json left = Json::array();
-    for (const Json& one : owner[key])
-        if (!dead.contains(one.get<std::size_t>())) left.push_back(one);
-    owner[key] = std::move(left);
-    if (owner[key].empty()) owner.erase(key);
-}
-
 bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
 
 /// Nodes with more than a transform, nodes outside the scene (their children must not change), and the
@@ -173,14 +128,6 @@ std::set<std::size_t> bound_meshes(const Json& document) {
     return bound;
 }
 
-/// New numbers after removing the dead items.
-std::vector<int> numbers_without(std::size_t count, const std::set<std::size_t>& dead) {
-    std::vector<int> numbers;
-    int next = 0;
-    for (std::size_t i = 0; i < count; ++i) numbers.push_back(dead.contains(i) ? -1 : next++);
-    return numbers;
-}
-
 } // namespace
 
 DocumentOptimizer::DocumentOptimizer(const Document& document)
@@ -205,22 +152,59 @@ std::vector<std::size_t> DocumentOptimizer::merge_equal(bool keep_names) {
     return first;
 }
 
-std::size_t DocumentOptimizer::merge_equal_accessors() {
-    if (!known_) return 0;
+namespace {
+
+/// [accessors] the kinds of use: the validator forbids an accessor with several.
+std::vector<std::set<char>> accessor_uses(const Json& document) {
+    std::vector<std::set<char>> uses(count_of(document, "accessors"));
+    const auto use = [&](const Json& owner, const char* key, char kind) {
+        if (const auto a = index_at(owner, key, uses.size())) uses[*a].insert(kind);
+    };
+    const auto members = [&](const Json& owner, const Json::json_pointer& key, char kind) {
+        if (owner.contains(key) && owner[key].is_object())
+            for (const auto& [name, value] : owner[key].items()) use(owner[key], name.c_str(), kind);
+    };
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
+        for (const Json& primitive : document["meshes"][m]["primitives"]) {
+            use(primitive, "indices", 'i');
+            members(primitive, Json::json_pointer("/attributes"), 'v');
+            if (!primitive.contains("targets")) continue;
+            for (const Json& target : primitive["targets"]) members(target, Json::json_pointer(), 'v');
+        }
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a)
+        for (const Json& sampler : document["animations"][a]["samplers"]) {
+            use(sampler, "input", 't');
+            use(sampler, "output", 'o');
+        }
+    for (std::size_t s = 0; s < count_of(document, "skins"); ++s)
+        use(document["skins"][s], "inverseBindMatrices", 'b');
+    for (std::size_t n = 0; n < count_of(document, "nodes"); ++n)
+        members(document["nodes"][n], Json::json_pointer("/extensions/EXT_mesh_gpu_instancing/attributes"),
+                'n');
+    return uses;
+}
+
+} // namespace
+
+std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
+    if (may_name_accessors(json_)) return 0;
     std::vector<Bytes> buffers = document_.buffers;
     buffers.insert(buffers.end(), added_.begin(), added_.end());
     Source source(json_, buffers);
     const std::size_t count = count_of(json_, "accessors");
+    const auto uses = accessor_uses(json_);
     std::vector<std::string> said(count);
     std::map<std::string, std::size_t> alike;
     for (std::size_t a = 0; a < count; ++a) {
         Json item = json_["accessors"][a];
-        if (!item.contains("bufferView") || item.contains("sparse") || item.contains("name") ||
-            has_more(item) || source.without_bytes(item["bufferView"].get<std::size_t>()))
+        if (!item.contains("bufferView") || item.contains("sparse") ||
+            (keep_names && item.contains("name")) || has_more(item) ||
+            source.without_bytes(item["bufferView"].get<std::size_t>()))
             continue;
-        for (const char* key : {"bufferView", "byteOffset", "min", "max"}) item.erase(key);
+        for (const char* key : {"name", "bufferView", "byteOffset", "min", "max"}) item.erase(key);
         const Json& view = json_["bufferViews"][json_["accessors"][a]["bufferView"].get<std::size_t>()];
-        said[a] = to_string(item) + to_string(view.value("target", Json()));
+        said[a] = to_string(item) + to_string(view.value("target", Json())) +
+                  std::string(uses[a].begin(), uses[a].end());
         ++alike[said[a]];
     }
     for (std::size_t a = 0; a < count; ++a) {
@@ -274,7 +258,7 @@ std::set<std::size_t> DocumentOptimizer::unnamed(const char* list, References re
     };
     std::set<std::size_t> dead = without_name(json_);
     for (const std::size_t i : named) dead.erase(i);
-    if (!all_) // one call per list, so that indices still have their old values
+    if (!all_) // calls once per list, so that indices still have their old values
         for (const std::size_t i : without_name(before_)) dead.erase(i);
     return dead;
 }
@@ -285,31 +269,6 @@ std::size_t DocumentOptimizer::erase(const char* list, References references,
     erase_items(json_[list], dead, [&](const Visit& visit) { references(json_, visit); });
     if (json_[list].empty()) json_.erase(list);
     return dead.size();
-}
-
-/// Finds the emptied nodes without other uses, then their ancestors. Removes each from its parent and its
-/// scene.
-std::set<std::size_t> DocumentOptimizer::empty_nodes(const std::set<std::size_t>& emptied) {
-    std::set<std::size_t> named, dead;
-    visit_named_nodes(json_, [&](Json& r) { named.insert(r.get<std::size_t>()); });
-    const auto frames = node_frames(json_);
-    auto order = parents_first(frames);
-    std::reverse(order.begin(), order.end());
-    std::set<std::size_t> candidates = emptied;
-    for (const std::size_t n : order) {
-        if (!candidates.contains(n) || named.contains(n)) continue;
-        Json& node = json_["nodes"][n];
-        drop_children(node, "children", dead);
-        const bool needed = std::any_of(node.items().begin(), node.items().end(), [](const auto& member) {
-            static const std::set<std::string> places = {"name", "translation", "rotation", "scale",
-                                                         "matrix"};
-            return !places.contains(member.key());
-        });
-        if (needed) continue;
-        dead.insert(n);
-        if (frames[n].parent >= 0) candidates.insert(static_cast<std::size_t>(frames[n].parent));
-    }
-    return dead;
 }
 
 TidyNumbers DocumentOptimizer::erase_unused(const TidyRequest& request) {
@@ -325,10 +284,8 @@ TidyNumbers DocumentOptimizer::erase_unused(const TidyRequest& request) {
                       materials = count_of(json_, "materials");
     std::set<std::size_t> dead_nodes, dead_meshes, dead_materials;
     if (known_) {
-        dead_nodes = empty_nodes(request.emptied);
-        if (!dead_nodes.empty())
-            each_parent(json_, [&](Json& owner, const char* key) { drop_children(owner, key, dead_nodes); });
-        erased_.nodes += erase("nodes", visit_node_references, dead_nodes);
+        dead_nodes = erase_empty_nodes(json_, request.emptied);
+        erased_.nodes += dead_nodes.size();
         dead_meshes = unnamed("meshes", visit_mesh_references, request.meshes);
         erased_.meshes += erase("meshes", visit_mesh_references, dead_meshes);
         if (!uses_extension(json_, "KHR_materials_variants"))
@@ -340,8 +297,11 @@ TidyNumbers DocumentOptimizer::erase_unused(const TidyRequest& request) {
         erased_.textures += tidy("textures", visit_texture_references);
         erased_.samplers += tidy("samplers", visit_sampler_references);
         erased_.images += tidy("images", visit_image_references);
-        erased_.accessors += tidy("accessors", visit_accessor_references);
-        tidy("bufferViews", visit_view_references);
+    }
+    if (!may_name_accessors(json_)) {
+        erased_.accessors += erase("accessors", visit_accessor_references,
+                                   unnamed("accessors", visit_accessor_references, {}));
+        erase("bufferViews", visit_view_references, unnamed("bufferViews", visit_view_references, {}));
         if (all_) drop_bounds();
     }
     numbers.nodes = numbers_without(nodes, dead_nodes);
@@ -351,6 +311,7 @@ TidyNumbers DocumentOptimizer::erase_unused(const TidyRequest& request) {
 }
 
 std::shared_ptr<const Document> DocumentOptimizer::finish(const std::shared_ptr<const Document>& before) {
+    drop_nulls(json_);
     if (json_ == before_) return before;
     auto out = std::make_shared<Document>(document_);
     out->json = to_string(json_);

@@ -67,12 +67,14 @@ class DocumentOptimizer {
     /// unknown way (numbers_are_known).
     TidyNumbers erase_unused(const TidyRequest& request);
 
-    /// Merges equal accessors, by their bytes. Returns the number of duplicates.
-    std::size_t merge_equal_accessors();
+    /// Merges equal accessors, by their bytes. keep_names: those with names stay. Returns the number of
+    /// duplicates.
+    std::size_t merge_equal_accessors(bool keep_names);
 
     /// Erases animation tracks that never move a node away from its rest transform, unless another animation
-    /// moves the same property. Translations are compared within a length, rotations and scales within 1e-5.
-    /// An animation keeps its duration. Returns the number of tracks. Call it before erase_unused.
+    /// moves the same property. Translations are compared within a length in the world, rotations and scales
+    /// within 1e-5. An animation keeps its duration. Returns the number of tracks. Call it before
+    /// erase_unused.
     std::size_t drop_resting_tracks(double length);
 
     /// Moves nodes to the top of their scene, keeping their world transforms. `emptied` receives their
@@ -108,7 +110,6 @@ class DocumentOptimizer {
     std::set<std::size_t> unnamed(const char* list, References references,
                                   const std::set<std::size_t>& named);
     std::size_t erase(const char* list, References references, const std::set<std::size_t>& dead);
-    std::set<std::size_t> empty_nodes(const std::set<std::size_t>& emptied);
     void drop_bounds();
     std::size_t add(const char* list, Json item);
     /// Adds a view with a separate buffer.

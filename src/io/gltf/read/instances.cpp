@@ -152,6 +152,7 @@ void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog
         if (!children.empty()) changed["children"] = std::move(children);
         changed.erase("mesh");
         changed["extensions"].erase(instancing_extension);
+        if (changed["extensions"].erase(instance_features) > 0) others.emplace_back(instance_features);
         if (changed["extensions"].empty()) changed.erase("extensions");
     }
     const auto has = [](const Json& node) {
@@ -160,6 +161,7 @@ void expand_instances(Json& document, const std::vector<Bytes>& buffers, ReadLog
     if (nodes == 0 || std::any_of(document["nodes"].begin(), document["nodes"].end(), has)) return;
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         remove_name(document, list, instancing_extension);
+        remove_name(document, list, instance_features);
         erase_empty(document, list);
     }
     if (!others.empty())

@@ -11,6 +11,7 @@
 #include "parallel/parallel.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace facetmill::io::gltf {
 
@@ -283,7 +284,25 @@ void add_line_primitive(Merge& merge, const JsonCursor& primitive) {
     mesh.primitives.push_back(primitive_info(merge, primitive, merge.blocks[b]));
 }
 
-/// The attribute with this name for the whole mesh, in a type that fits the values of all blocks.
+/// One primitive of points, in the order of its indices.
+void add_points_primitive(Merge& merge, const JsonCursor& primitive) {
+    const std::size_t b = plain_block(merge, primitive);
+    Block& block = merge.blocks[b];
+    if (const auto reference = primitive.find("indices")) {
+        const std::vector<Index> order = decode_indices(merge.source, *reference, block.count);
+        merge.need(static_cast<double>(order.size() * sizeof(Vec3)));
+        std::vector<Vec3> positions;
+        positions.reserve(order.size());
+        for (const Index i : order) positions.push_back(block.positions[i]);
+        block.positions = std::move(positions);
+        for (Attribute& a : block.attributes) a = selected(a, order);
+        merge.wedges += order.size() - block.count;
+        block.count = order.size();
+    }
+    merge.out.mesh.primitives.push_back(primitive_info(merge, primitive, block));
+}
+
+/// The attribute of that name for the whole mesh, in a type that fits the values of all blocks.
 Attribute& common_attribute(Mesh& mesh, const Attribute& part) {
     if (Attribute* known = mesh.find(part.name, Domain::wedge)) {
         if (known->data.index() != part.data.index() || known->normalised != part.normalised) {
@@ -370,8 +389,7 @@ Role role_of(std::string_view semantic) {
     return starts("WEIGHTS_") ? Role::weights : Role::generic;
 }
 
-DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices,
-                        const ReadElsewhere& elsewhere) {
+DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices) {
     Merge merge{source,
                 item(source.json(), "meshes", index),
                 std::min<std::size_t>(max_vertices, none - 1),
@@ -383,29 +401,32 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
                 0};
     const JsonCursor primitives = merge.mesh_place.at("primitives");
     std::size_t skipped = 0;
-    const bool of_lines = is_of_lines(merge.mesh_place);
+    const Drawn main = kind_of_mesh(merge.mesh_place);
+    bool points = false; // of points, only the first primitive is read: part_kinds gives each its mesh
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (makes_triangles(primitives.at(i))) {
-            add_primitive(merge, primitives.at(i));
-        } else if (of_lines && makes_lines(primitives.at(i))) {
-            add_line_primitive(merge, primitives.at(i));
-        } else if (!(elsewhere.lines && makes_lines(primitives.at(i))) &&
-                   !(elsewhere.points && makes_points(primitives.at(i)))) {
+        const JsonCursor primitive = primitives.at(i);
+        const Drawn kind = kind_of(primitive);
+        if (kind == Drawn::none)
             ++skipped;
-        }
+        else if (kind != main || std::exchange(points, kind == Drawn::points))
+            continue; // read elsewhere
+        else if (kind == Drawn::triangles)
+            add_primitive(merge, primitive);
+        else if (kind == Drawn::lines)
+            add_line_primitive(merge, primitive);
+        else
+            add_points_primitive(merge, primitive);
     }
     if (skipped > 0)
-        merge.warn(
-            "W-SKIPPED",
-            fmt::format(
-                "{}: {} of points or without positions kept in the document as written: stages see only "
-                "what else the mesh has, transform --bake does not move the points, merge drops them",
-                merge.mesh_place.path(),
-                skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)));
+        merge.warn("W-SKIPPED",
+                   fmt::format("{}: the document keeps {} without positions unchanged, and stages ignore {}",
+                               merge.mesh_place.path(),
+                               skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped),
+                               skipped == 1 ? "it" : "them"));
     join_blocks(merge);
     Mesh& mesh = merge.out.mesh;
     if (mesh.primitives.size() == 1) mesh.line_primitive.clear();
-    if (of_lines) return std::move(merge.out);
+    if (main != Drawn::triangles) return std::move(merge.out);
     if (!merge_as_told(source, merge.mesh_place, mesh, merge.out.warnings)) weld_exact(mesh);
     merge_equal_wedges(mesh);
     return std::move(merge.out);

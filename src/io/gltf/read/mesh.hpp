@@ -7,23 +7,18 @@
 
 namespace facetmill::io::gltf {
 
-/// Primitives that other functions read, so that no warning is needed.
-struct ReadElsewhere {
-    bool lines = false, points = false;
-};
-
 struct DecodedMesh {
     Mesh mesh;
     std::vector<ReadWarning> warnings;
 };
 
-/// Decodes the triangles of mesh `index`, or the lines of a mesh without triangles. Triangles are welded
-/// into vertices by exact position, or as EXT_mesh_manifold defines. glTF's vertices become wedges; equal
-/// wedges at a vertex are merged. Points in the same mesh stay in the document, with a warning (W-SKIPPED).
-/// Primitive::material is the document's material index. The same bytes give the same Mesh, so the writer
-/// can decode again to check for changes. Throws a malformed-input error and a limit error.
-[[nodiscard]] DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
-                                      const ReadElsewhere& elsewhere = {});
+/// Decodes the triangles of mesh `index`, or the lines of a mesh without triangles, or else its first
+/// primitive of points. Triangles are welded into vertices by exact position, or as EXT_mesh_manifold
+/// defines. glTF's vertices become wedges; equal wedges at a vertex are merged. Primitives without positions
+/// stay in the document, with a warning (W-SKIPPED).
+/// Primitive::material is the document's material index. The same bytes give the same Mesh, so the writer can
+/// decode again to check for changes. Throws malformed and limit.
+[[nodiscard]] DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none);
 
 /// The role of a glTF attribute name.
 [[nodiscard]] Role role_of(std::string_view semantic);

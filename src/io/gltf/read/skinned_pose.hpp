@@ -8,9 +8,9 @@
 namespace facetmill::io {
 
 /// The scene with skinned parts posed by the nodes of their document, and morphed parts with their default
-/// weights (from the node, else the mesh), as in glTF 2.0. Joint weights are normalised to sum to one. Only
-/// positions, normals and tangents change: stages work on the bind pose, pictures show this pose. None if
-/// nothing changes. A part with an unreadable skin stays unchanged.
+/// weights (from the node, otherwise the mesh), as in glTF 2.0. Joint weights are normalised to sum to one.
+/// Only positions, normals and tangents change: stages work on the bind pose, pictures show this pose. None
+/// if nothing changes. A part with an unreadable skin stays unchanged.
 [[nodiscard]] std::optional<Scene> posed(const Scene& scene);
 
 } // namespace facetmill::io

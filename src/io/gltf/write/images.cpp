@@ -73,7 +73,7 @@ class Placer {
 
     void embed(const FileImage& image) {
         const std::string type = media_type(*image.bytes);
-        if (type.empty()) return copy(image); // reported as a fault
+        if (type.empty()) return copy(image); // reported separately as a fault
         const auto [view, fresh] = views_.try_emplace(sha256(*image.bytes), 0);
         if (fresh) view->second = patch_.builder.add_view(*image.bytes);
         Json& json = image_json(patch_, image); // fetched after add_view, which may reallocate the JSON

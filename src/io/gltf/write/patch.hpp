@@ -14,8 +14,7 @@ struct Patch {
     const WriteSettings& settings;
     Builder& builder;
     Written& written;
-    int base;                                       ///< the document being patched, or -1
-    const bool of_points = scene.face_count() == 0; ///< no part has faces: vertices are written as points
+    int base; ///< the document being patched, or -1
 
     void warn(const char* id, std::string message, std::string hint = {}) {
         written.warnings.push_back({Severity::warning, id, std::move(message), {}, std::move(hint)});

@@ -17,12 +17,6 @@ struct Variant {
     std::size_t dropped_faces = 0;
 };
 
-/// True if the primitive belongs to the mesh's part.
-bool is_of_part(const Json& primitive, bool lines) {
-    const JsonCursor place(primitive, "");
-    return lines ? makes_lines(place) : makes_triangles(place);
-}
-
 bool same_attribute(const Attribute& a, const Attribute& b) {
     return a.name == b.name && a.domain == b.domain && a.role == b.role && a.components == b.components &&
            a.normalised == b.normalised && a.data == b.data;
@@ -60,9 +54,31 @@ bool stored_as_wanted(const Patch& patch, const Json& mesh) {
     return manifold || patch.settings.draco.on || !patch.settings.mesh_manifold;
 }
 
+/// True if a face or a line uses each wedge, or the mesh has neither.
+bool uses_all_wedges(const Mesh& mesh) {
+    const bool lines = mesh.face_count() == 0;
+    const std::vector<Index>& ends = lines ? mesh.lines : mesh.corners;
+    if (ends.empty()) return true;
+    std::vector<std::uint8_t> used(mesh.wedge_count());
+    for (const Index w : ends) used[w] = 1;
+    return std::find(used.begin(), used.end(), 0) == used.end();
+}
+
+/// True if the mesh would be rounded or compressed with vertices that it does not use, as meshes of one large
+/// accessor have. Extensions keep a mesh as it is.
+bool has_excess(const Patch& patch, const Json& json, const Mesh& mesh) {
+    const WriteSettings& s = patch.settings;
+    if (!s.draco.on && !s.quantize.on && !s.meshopt.on) return false;
+    const auto extended = [](const Json& object) { return object.contains("extensions"); };
+    if (extended(json) || std::any_of(json["primitives"].begin(), json["primitives"].end(), extended))
+        return false;
+    return !uses_all_wedges(mesh);
+}
+
 bool is_original(Patch& patch, const Part& part) {
     const auto mesh = static_cast<std::size_t>(part.source_mesh);
-    if (part.changed || !stored_as_wanted(patch, patch.builder.json()["meshes"][mesh])) return false;
+    const Json& json = patch.builder.json()["meshes"][mesh];
+    if (part.changed || !stored_as_wanted(patch, json) || has_excess(patch, json, part.mesh)) return false;
     const Mesh read = decode_mesh(patch.builder.source(), mesh).mesh;
     return same_mesh(read, part.mesh, [&](Index there, Index here) {
         if (here == none || here >= patch.scene.materials.size()) return there == here;
@@ -77,7 +93,7 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     s.draco = patch.settings.draco;
     const auto number = static_cast<std::size_t>(&part - &patch.scene.parts[0]);
     s.draco.position_bits = patch.settings.grid_bits(number);
-    s.draco_step = patch.settings.lattice(number).step;
+    s.lattice = patch.settings.lattice(number);
     s.quantize = patch.settings.quantize;
     s.filters = patch.settings.meshopt.on && patch.settings.meshopt.filters;
     s.manifold = patch.settings.mesh_manifold;
@@ -86,7 +102,6 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     if (s.order == TriangleOrder::automatic)
         s.order = patch.settings.meshopt.on ? TriangleOrder::size : TriangleOrder::draw;
     s.keep_exact = patch.settings.quantize.on;
-    s.points = patch.of_points;
     s.name = part.name;
     s.material = [&copies](Index m) { return patch_material(copies, m); };
     // Feature numbers and tables are only valid in one document.
@@ -136,11 +151,11 @@ Json encoded_object(MaterialCopies& copies, Json mesh, Variant& variant) {
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(copies, part), patch.written);
     variant.dropped_faces = encoded.dropped_faces;
     patch.written.cache.add(encoded.cache);
-    Json untouched = Json::array(); // the points, and the lines that became tubes
+    Json untouched = Json::array(); // without positions, and lines that became tubes
     if (mesh.contains("primitives")) {
-        const bool lines = is_of_lines(JsonCursor(mesh, ""));
+        const Drawn main = kind_of_mesh(JsonCursor(mesh, ""));
         for (auto& primitive : mesh["primitives"])
-            if (!is_of_part(primitive, lines)) untouched.push_back(primitive);
+            if (kind_of(JsonCursor(primitive, "")) != main) untouched.push_back(primitive);
     }
     for (auto& primitive : untouched) encoded.primitives.push_back(std::move(primitive));
     if (encoded.primitives.empty()) return nullptr;
@@ -172,10 +187,10 @@ void patch_variants(MaterialCopies& copies, std::size_t mesh, std::vector<Varian
     const Json before = meshes[mesh];
     bool slot_free =
         std::none_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
-    const bool lines = is_of_lines(JsonCursor(before, ""));
+    const Drawn main = kind_of_mesh(JsonCursor(before, ""));
     if (slot_free)
         for (const auto& primitive : before["primitives"])
-            if (is_of_part(primitive, lines)) patch.builder.release(primitive);
+            if (kind_of(JsonCursor(primitive, "")) == main) patch.builder.release(primitive);
     int own = 0;
     for (auto& variant : variants) {
         if (variant.original) {
@@ -219,7 +234,7 @@ PartMeshes patch_meshes(Patch& patch, Claims claims) {
     const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
     std::vector<std::size_t> variant_of(parts.size());
     std::map<std::pair<int, int>, std::vector<Variant>>
-        families; // by document and mesh; each new part separately
+        families; // families by document and mesh; each new part is separate
     const auto key_of = [&](std::size_t i) {
         const Part& p = parts[i];
         const bool ours = p.document == patch.base && p.document >= 0 && p.source_mesh >= 0 &&
@@ -266,7 +281,7 @@ void drop_dead_meshes(Patch& patch, const PartMeshes& meshes) {
         if (mesh >= 0) dead.erase(static_cast<std::size_t>(mesh));
     Json& json = patch.builder.json();
     visit_mesh_references(json, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
-    if (dead.empty() || has_unknown_extensions(json)) return;
+    if (dead.empty() || has_unknown_extensions(json)) return; // also pointers of animations
     for (const std::size_t mesh : dead)
         for (const auto& primitive : json["meshes"][mesh]["primitives"]) patch.builder.release(primitive);
     erase_items(json["meshes"], dead, [&](const auto& visit) { visit_mesh_references(json, visit); });

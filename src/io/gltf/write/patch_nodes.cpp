@@ -1,3 +1,4 @@
+#include "io/gltf/document/node_references.hpp"
 #include "io/gltf/read/instances.hpp"
 #include "io/gltf/write/patch.hpp"
 
@@ -227,9 +228,11 @@ std::size_t add_node(Patch& patch, const Claims& claims, const Part& part, int m
         below = place_below(patch, claims, part, origin);
         const Transform at = below ? *below : node_world(patch, claims, part);
         if (!at.identity()) node["matrix"] = matrix(at);
-        if (mesh >= 0 && claims.largest_instances.contains(origin))
-            node["extensions"][instancing_extension] =
-                document["nodes"][static_cast<std::size_t>(origin)]["extensions"][instancing_extension];
+        if (mesh >= 0 && claims.largest_instances.contains(origin)) {
+            const Json& extensions = document["nodes"][static_cast<std::size_t>(origin)]["extensions"];
+            for (const char* name : {instancing_extension, instance_features})
+                if (extensions.contains(name)) node["extensions"][name] = extensions[name];
+        }
     }
     const std::size_t index = patch.builder.add("nodes", std::move(node));
     Json& siblings =
@@ -324,6 +327,17 @@ void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
     if (!local.identity()) node["matrix"] = matrix(local);
 }
 
+/// Drops the sizes on the screen at which levels change if they are not as many as the levels.
+void drop_coverage(Patch& patch, Json& node, std::size_t levels) {
+    const Json::json_pointer coverage("/extras/MSFT_screencoverage");
+    if (!node.contains(coverage) || node[coverage].size() == levels + 1) return;
+    node["extras"].erase("MSFT_screencoverage");
+    if (node["extras"].empty()) node.erase("extras");
+    patch.warn("W-LODS", fmt::format("the levels of detail of node '{}' changed, so its MSFT_screencoverage "
+                                     "for the old levels is removed",
+                                     node.value("name", "")));
+}
+
 /// Turns parts X.lod1, X.lod2, ... into levels of X.
 void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& node_of_part) {
     if (!patch.settings.lods) return;
@@ -347,8 +361,9 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
                 place_level(document["nodes"][node], parent,
                             node_world(patch, claims, patch.scene.parts[part]));
         }
-        document["nodes"][static_cast<std::size_t>(node_of_part[base])]["extensions"]["MSFT_lod"] = {
-            {"ids", ids}};
+        Json& node = document["nodes"][static_cast<std::size_t>(node_of_part[base])];
+        drop_coverage(patch, node, ids.size());
+        node["extensions"]["MSFT_lod"] = {{"ids", ids}};
     }
     if (linked > 0)
         patch.builder.use_extension("MSFT_lod", false);
@@ -356,6 +371,26 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
         patch.warn("W-LODS",
                    "there are no levels of detail to write: no part is called X.lod1 beside a part X",
                    "simplify: {lods: [100%, 25%, 5%]} makes them");
+}
+
+/// Drops nodes that lost their mesh and have nothing else.
+void drop_emptied_nodes(Patch& patch, const Claims& claims, std::vector<int>& node_of_part) {
+    Json& document = patch.builder.json();
+    if (has_unknown_extensions(document) || uses_extension(document, "KHR_animation_pointer")) return;
+    std::set<std::size_t> emptied;
+    for (const Placement& placement : claims.placements) {
+        const auto node = static_cast<std::size_t>(placement.node);
+        if (placement.node < 0 || document["nodes"][node].contains("mesh")) continue;
+        emptied.insert(node);
+        Json& extensions = document["nodes"][node]["extensions"]; // a missing one is dropped as null
+        for (const char* name : {instancing_extension, instance_features})
+            if (extensions.is_object()) extensions.erase(name);
+        if (extensions.empty()) document["nodes"][node].erase("extensions");
+    }
+    const std::size_t count = count_of(document, "nodes");
+    const auto numbers = numbers_without(count, erase_empty_nodes(document, emptied));
+    for (int& node : node_of_part)
+        if (node >= 0) node = numbers[static_cast<std::size_t>(node)];
 }
 
 } // namespace
@@ -383,6 +418,7 @@ PartNodes patch_nodes(Patch& patch, PartMeshes meshes) {
             nodes[i] = static_cast<int>(add_node(patch, claims, patch.scene.parts[i], meshes.of_part[i]));
     patch_levels(patch, claims, nodes);
     drop_dead_meshes(patch, meshes);
+    drop_emptied_nodes(patch, claims, nodes);
     return {std::move(nodes), std::move(meshes.images)};
 }
 

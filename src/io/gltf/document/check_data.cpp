@@ -1,0 +1,151 @@
+#include "io/gltf/document/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+/// A user of an accessor.
+enum class Use { vertices, indices, bind_matrices, times, values, instances };
+
+/// Calls visit(use, semantic or path, reference) for every use of an accessor. The semantic of a morph target
+/// begins with "TARGET ".
+template <class Visit>
+void each_use(const Json& document, const Visit& visit) {
+    const auto named = [&](Use use, const std::string& prefix, const JsonCursor& of) {
+        for (const auto& [key, value] : of.json().get_ref<const Json::object_t&>())
+            visit(use, prefix + key, JsonCursor(of, {&key, 0}, value));
+    };
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
+        const JsonCursor primitives = item(document, "meshes", m).at("primitives");
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const JsonCursor primitive = primitives.at(p);
+            named(Use::vertices, "", primitive.at("attributes"));
+            if (const auto indices = primitive.find("indices")) visit(Use::indices, std::string(), *indices);
+            const auto targets = primitive.find("targets");
+            for (std::size_t t = 0; targets && t < targets->size(); ++t)
+                named(Use::vertices, "TARGET ", targets->at(t));
+        }
+    }
+    for (std::size_t s = 0; s < count_of(document, "skins"); ++s)
+        if (const auto matrices = item(document, "skins", s).find("inverseBindMatrices"))
+            visit(Use::bind_matrices, std::string(), *matrices);
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const JsonCursor samplers = item(document, "animations", a).at("samplers");
+        for (std::size_t s = 0; s < samplers.size(); ++s) {
+            visit(Use::times, std::string(), samplers.at(s).at("input"));
+            visit(Use::values, std::string(), samplers.at(s).at("output"));
+        }
+    }
+}
+class DataRules {
+  public:
+    explicit DataRules(const CheckedDocument& document) : document_(document) {}
+
+    void run() {
+        for (std::size_t i = 0; i < count_of(document_.json, "images"); ++i)
+            image(item(document_.json, "images", i));
+        for (std::size_t a = 0; a < count_of(document_.json, "accessors"); ++a)
+            accessor(item(document_.json, "accessors", a));
+        uses();
+    }
+
+  private:
+    void image(const JsonCursor& place) {
+        const Json& image = place.json();
+        if (image.contains("uri") == image.contains("bufferView"))
+            document_.breaches.add(place, image.contains("uri") ? "has a uri and a buffer view"
+                                                                : "has no uri and no buffer view");
+        if (image.contains("bufferView") && !image.contains("mimeType"))
+            document_.breaches.add(place, "\"mimeType\" is missing");
+        if (image.contains("bufferView") &&
+            document_.at("bufferViews", image["bufferView"]).contains("byteStride"))
+            document_.breaches.add(place.at("bufferView"), "the view of an image has a byteStride");
+    }
+
+    void accessor(const JsonCursor& place) {
+        const Json& accessor = place.json();
+        const std::size_t size = size_of(static_cast<int>(number_in(accessor, "componentType")));
+        const std::size_t components =
+            static_cast<std::size_t>(components_of(accessor["type"].get<std::string>()));
+        for (const char* bound : {"min", "max"})
+            if (const auto numbers = place.find(bound); numbers && numbers->size() != components)
+                document_.breaches.add(*numbers, fmt::format("expected {} numbers", components));
+        if (accessor.value("normalized", false) && (size == 4 || size == 0))
+            document_.breaches.add(place, "floats and 32-bit integers cannot be normalized");
+        if (const auto sparse = place.find("sparse");
+            sparse && sparse->at("count").natural() > number_in(accessor, "count"))
+            document_.breaches.add(sparse->at("count"), "is more than the count of the accessor");
+        if (!accessor.contains("bufferView")) {
+            if (accessor.contains("byteOffset"))
+                document_.breaches.add(place, "has a byteOffset without a buffer view");
+            return;
+        }
+        const Json& view = document_.at("bufferViews", accessor["bufferView"]);
+        const std::size_t offset = number_in(accessor, "byteOffset", 0),
+                          stride = number_in(view, "byteStride", 0);
+        if (size > 0 && (offset % size != 0 || (offset + number_in(view, "byteOffset", 0)) % size != 0))
+            document_.breaches.add(place, fmt::format("its offset is not a multiple of {} bytes", size));
+        if (size > 0 && stride % size != 0)
+            document_.breaches.add(place, fmt::format("its stride is not a multiple of {} bytes", size));
+        if (stride > 0 && stride < size * components)
+            document_.breaches.add(
+                place, fmt::format("its elements are longer than the stride of {} bytes", stride));
+        if (accessor["type"].get<std::string>().starts_with("MAT") && offset % 4 != 0)
+            document_.breaches.add(place, "the offset of matrices is not a multiple of 4 bytes");
+    }
+
+    /// Rules for the views of vertices, indices and other numbers.
+    void uses() {
+        std::map<std::size_t, Use> view_use;
+        std::map<std::size_t, std::set<std::size_t>> vertices_of; // by view
+        each_use(document_.json, [&](Use use, const std::string&, const JsonCursor& reference) {
+            const Json& accessor = document_.at("accessors", reference.json());
+            if (!accessor.contains("bufferView")) return;
+            const std::size_t v = number_in(accessor, "bufferView");
+            const Json& view = document_.json["bufferViews"][v];
+            const bool strided = view.contains("byteStride");
+            if (use != Use::vertices && strided)
+                document_.breaches.add(reference, "its view has a byteStride, which is for vertices");
+            const auto target = number_in(view, "target", 0);
+            const std::size_t wanted = use == Use::vertices ? 34962 : use == Use::indices ? 34963 : 0;
+            if (target != 0 && target != wanted)
+                document_.breaches.add(reference,
+                                       fmt::format("its view is for another use: target {}", target));
+            const auto [known, fresh] = view_use.try_emplace(v, use);
+            const bool both = (known->second == Use::vertices) != (use == Use::vertices) ||
+                              (known->second == Use::indices) != (use == Use::indices);
+            if (!fresh && both) document_.breaches.add(reference, "its view has data of another use, too");
+            if (use != Use::vertices) return;
+            if (number_in(accessor, "byteOffset", 0) % 4 != 0 || number_in(view, "byteOffset", 0) % 4 != 0)
+                document_.breaches.add(reference, "the offset of vertices is not a multiple of 4 bytes");
+            auto& all = vertices_of[v];
+            if (all.insert(reference.natural()).second && all.size() == 2 && !strided)
+                document_.breaches.add(reference,
+                                       "several accessors of vertices share a view without byteStride");
+        });
+        for (std::size_t v = 0; v < count_of(document_.json, "bufferViews"); ++v) {
+            const JsonCursor place = item(document_.json, "bufferViews", v);
+            const auto stride = place.find("byteStride");
+            if (stride && stride->natural() % 4 != 0)
+                document_.breaches.add(*stride, "is not a multiple of 4");
+            if (stride && number_in(place.json(), "target", 34962) != 34962)
+                document_.breaches.add(*stride, "is for vertices");
+            if (stride && stride->natural() > number_in(place.json(), "byteLength"))
+                document_.breaches.add(*stride, "is more than byteLength");
+        }
+    }
+
+    const CheckedDocument& document_;
+};
+
+} // namespace
+
+void check_data(const CheckedDocument& document) { DataRules(document).run(); }
+
+} // namespace facetmill::io::gltf

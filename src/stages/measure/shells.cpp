@@ -1,0 +1,63 @@
+#include "stages/measure/shells.hpp"
+
+#include "geometry/clean/clean.hpp"
+#include "geometry/intersect/self_intersections.hpp"
+#include "geometry/measure/measure.hpp"
+#include "geometry/orient/orient.hpp"
+#include "mesh/face.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facetmill::measure_stage {
+
+namespace {
+
+bool overlap(const Box& a, const Box& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) return false;
+    return true;
+}
+
+/// Whether the boxes of two components overlap: the boxes in order of x, each compared with those that begin
+/// before it ends.
+bool any_overlap(const Mesh& mesh, const Components& components) {
+    std::vector<Box> boxes(components.count);
+    for (Index f = 0; f < mesh.face_count(); ++f) add_corners(boxes[components.of_face[f]], mesh, f);
+    std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min.x < b.min.x; });
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t k = i + 1; k < boxes.size() && boxes[k].min.x <= boxes[i].max.x; ++k)
+            if (overlap(boxes[i], boxes[k])) return true;
+    return false;
+}
+
+bool pass_through(const Mesh& mesh, const Components& components) {
+    const auto found =
+        find_self_intersections(mesh, {.limit = std::size_t{1} << 20, .separate_touching = true});
+    return std::any_of(found.pairs.begin(), found.pairs.end(), [&](const auto& pair) {
+        return components.of_face[pair.first] != components.of_face[pair.second];
+    });
+}
+
+} // namespace
+
+std::optional<SolidVolume> volume_of_overlapping_shells(const Mesh& mesh, double volume) {
+    const Components components = face_components(mesh, false);
+    if (components.count < 2 || !any_overlap(mesh, components)) return {};
+    SolidVolume solid;
+    solid.unites = pass_through(mesh, components);
+    Mesh sound = orient(bare(mesh), {}).mesh;
+    if (solid.unites) {
+        CleanSettings settings;
+        settings.self_intersections = Untangle::unite;
+        sound = clean(std::move(sound), settings).mesh;
+    }
+    const auto mass = measure_mass(sound).solid;
+    constexpr double rounding = 1e-9; // of sums over millions of faces, and of new vertices of the union
+    if (!mass || std::abs(mass->volume - volume) <= rounding * std::abs(volume)) return {};
+    solid.volume = mass->volume;
+    return solid;
+}
+
+} // namespace facetmill::measure_stage
