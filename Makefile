@@ -16,6 +16,8 @@
 #                 those of the stages' pages and the gallery, with the site around them
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
+#   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
+#   make test-dist   install these packages as users do, and run them (needs root for chroot)
 #   make format   run clang-format over the sources
 #   make check-style   the layers, clang-format, clang-tidy, and statements separated by commas
 
@@ -29,7 +31,7 @@ TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist test-dist format check-layers check-style clean
 all: build
 
 deps:
@@ -102,6 +104,12 @@ install: build
 
 deb: build
 	cd $(BUILD) && cpack -G DEB
+
+dist: deps
+	@packaging/dist.sh dist
+
+test-dist:
+	@packaging/test.sh dist
 
 format:
 	git ls-files 'src/*.[ch]pp' 'tests/*.[ch]pp' 'bench/*.[ch]pp' | xargs clang-format -i
