@@ -13,6 +13,7 @@
 namespace write_no_mesh_test {
 
 using namespace facetmill;
+using test::failure;
 using test::options;
 
 /// Two joints; the second turns by 90 degrees, and a track leaves the first where it is.

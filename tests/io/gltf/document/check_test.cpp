@@ -12,6 +12,7 @@
 namespace check_test {
 
 using namespace facetmill;
+using test::failure;
 
 /// A triangle with all that a document can have.
 Json triangle() {
