@@ -11,18 +11,18 @@
 namespace facetmill::validate_stage {
 
 struct SceneLimits {
-    std::optional<CountLimit> parts, materials;
-    std::optional<CountLimit> draw_calls, texture_pixels; ///< of a file
-    std::optional<ByteLimit> bytes;                       ///< of a file, with its neighbours
-    std::vector<std::string> names;      ///< patterns; every part's name must match at least one
-    std::vector<std::string> extensions; ///< allowed glTF extensions; empty: all
-    bool any() const;
+    std::optional<CountLimit> parts{}, materials{};
+    std::optional<CountLimit> draw_calls{}, texture_pixels{}; ///< of a file
+    std::optional<ByteLimit> bytes{};                         ///< of a file, with its neighbours
+    std::vector<std::string> names{};      ///< patterns; every part's name must match at least one
+    std::vector<std::string> extensions{}; ///< allowed glTF extensions; empty: all
+    [[nodiscard]] bool any() const;
     /// The first given limit of files, "limits.bytes"; empty: none.
-    std::string of_files() const;
+    [[nodiscard]] std::string of_files() const;
     /// Whether a limit other than of bytes is given.
-    bool need_whole_scene() const;
+    [[nodiscard]] bool need_whole_scene() const;
     /// Whether judging a file needs its scene, not only its size.
-    bool need_contents() const { return draw_calls || texture_pixels; }
+    [[nodiscard]] bool need_contents() const { return draw_calls || texture_pixels; }
 };
 
 /// A scene, or a file with its scene if limits need it.
