@@ -5,6 +5,7 @@
 #include "base/math/random.hpp"
 #include "mesh/provenance.hpp"
 #include "mesh/shapes.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,6 +137,19 @@ inline Mesh touching_sides(int n) {
             append(mesh, one);
         }
     return mesh;
+}
+
+/// The solid between a grid's heights and the plane z = 0.
+inline Mesh solid_below(Mesh top) {
+    const auto n = static_cast<Index>(top.vertex_count());
+    const std::vector<BoundaryEdge> border = boundary_edges(top);
+    const std::vector<Index> corners = top.corners;
+    for (Index v = 0; v < n; ++v) top.positions.push_back({top.positions[v].x, top.positions[v].y, 0});
+    for (std::size_t c = 0; c < corners.size(); c += 3)
+        top.corners.insert(top.corners.end(), {n + corners[c], n + corners[c + 2], n + corners[c + 1]});
+    for (const auto& e : border)
+        top.corners.insert(top.corners.end(), {e.to, e.from, n + e.from, e.to, n + e.from, n + e.to});
+    return top;
 }
 
 } // namespace facetmill::test

@@ -6,7 +6,6 @@
 #include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
-#include "mesh/topology.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/measure.hpp"
@@ -366,19 +365,6 @@ TEST_CASE("the rounding of floats counts along the plane's normal", "[geometry]"
 
 namespace {
 
-/// The solid between a grid's heights and the plane z = 0.
-Mesh solid_below(Mesh top) {
-    const auto n = static_cast<Index>(top.vertex_count());
-    const std::vector<BoundaryEdge> border = boundary_edges(top);
-    const std::vector<Index> corners = top.corners;
-    for (Index v = 0; v < n; ++v) top.positions.push_back({top.positions[v].x, top.positions[v].y, 0});
-    for (std::size_t c = 0; c < corners.size(); c += 3)
-        top.corners.insert(top.corners.end(), {n + corners[c], n + corners[c + 2], n + corners[c + 1]});
-    for (const auto& e : border)
-        top.corners.insert(top.corners.end(), {e.to, e.from, n + e.from, e.to, n + e.from, n + e.to});
-    return top;
-}
-
 void check_capped(const Mesh& mesh) {
     CHECK(test::closed(mesh));
     CHECK(test::edge_manifold(mesh));
@@ -393,7 +379,7 @@ TEST_CASE("a vertex that lies on the plane from one side becomes a corner of the
     for (Vec3& p : grid.positions) p.z = p.x == 2 && p.y == 2 ? 1 : 2;
     ClipSettings settings = at_plane({{0, 0, 1}, {0, 0, 1}, 0});
     settings.cap = true;
-    const ClipResult pit = clip(solid_below(grid), settings);
+    const ClipResult pit = clip(test::solid_below(grid), settings);
     check_capped(pit.front);
     CHECK(test::volume(pit.front) == Approx(15)); // the pit is a cone of height 1 over six half squares
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -401,7 +387,7 @@ TEST_CASE("a vertex that lies on the plane from one side becomes a corner of the
         Mesh terrain = shapes::grid(8, 8);
         for (std::size_t v = 0; v < terrain.positions.size(); ++v)
             terrain.positions[v].z = std::floor(test::between(1, 6, seed, v));
-        const Mesh solid = solid_below(terrain);
+        const Mesh solid = test::solid_below(terrain);
         settings.planes = {{{0, 0, 1}, {0, 0, 3}, 0}};
         settings.keep = Keep::both;
         const ClipResult cut = clip(solid, settings);
