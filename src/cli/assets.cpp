@@ -14,9 +14,9 @@ void add_asset_options(Arguments& arguments, AssetOptions& options) {
     arguments.add(
         "--table", &options.sources.table,
         "A CSV file with a header, or a YAML list of maps: one row per asset, one column per param.");
-    arguments.add(
-        "--base", &options.sources.base,
-        "The input folder whose structure is mirrored. Default: the part of a pattern before its wildcards.");
+    arguments.add("--base", &options.sources.base,
+                  "The input folder whose structure is mirrored. Default: the part of a pattern before "
+                  "its\nwildcards.");
     arguments.add("-o,--output-dir", &options.common.output_dir, "The folder for relative paths of outputs.")
         .required();
     add_param_options(arguments, options.common);

@@ -15,8 +15,9 @@ namespace fs = std::filesystem;
 
 void add_sandbox_option(Arguments& arguments, SandboxOptions& options) {
     arguments.add("--no-sandbox", &options.off,
-                  "Turns the sandbox off. By default, facetmill can only access the files in the plan and "
-                  "the system calls that it needs.");
+                  "Turns the sandbox off. By default, facetmill can only access the files in the plan\nand "
+                  "the system calls "
+                  "that it needs.");
 }
 
 void add_asset_root_option(Arguments& arguments, std::vector<std::string>& folders) {

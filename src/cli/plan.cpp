@@ -75,7 +75,7 @@ Command plan_command() {
                               "Prints only the files that the pipeline reads, one per line.");
                 arguments.add(
                     "--outputs", &options->outputs,
-                    "Prints only the files that the pipeline writes, one per line. With --inputs, they "
+                    "Prints only the files that the pipeline writes, one per line. With --inputs,\nthey "
                     "follow an empty line.");
                 arguments.add("--json", &options->json, "Prints JSON.");
                 arguments.add("-o,--output-dir", &options->common.output_dir,

@@ -93,7 +93,7 @@ void check_outputs(const std::vector<Job>& jobs) {
                         fmt::format("the run of {} has no output with a known name, so a workflow cannot "
                                     "check whether it is up to date",
                                     job.name),
-                        "add a report to the pipeline: \"${input.stem}.json\", or use facetmill batch");
+                        "add this to the pipeline: report: \"${input.stem}.json\", or use facetmill batch");
 }
 
 /// Linux limits an argument to 131072 bytes, and the shell gets its command as a single argument. Reserves

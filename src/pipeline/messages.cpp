@@ -31,14 +31,6 @@ const RegisterMessages pipeline_messages{
     {"E-INVARIANT",
      "A stage produced a mesh that breaks an invariant. Only a hidden option enables this check.",
      "Report this bug with the pipeline and the input.", ErrorKind::bug},
-    {"E-LIMITS",
-     "`validate: {limits: ...}` limits the bytes, draw calls or pixels of written files, and no `write` "
-     "comes "
-     "before it.",
-     "Put `write` before `validate`. If the check fails, the file does not appear. If `write` has a "
-     "condition, give "
-     "`validate` the same.",
-     {ErrorKind::usage, ErrorKind::stage}},
     {"E-NAME", "A name is already in use, or contains characters that are not allowed.",
      "Choose a unique name without `. / [ ]`.", ErrorKind::usage},
     {"E-ORDER", "A stage needs a scene, but no earlier stage loads one.", "Begin with `load` or `generate`.",

@@ -329,13 +329,13 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
     const Scene low = cube_at_0(inside);
     Scene lying = low;
     for (Vec3& p : lying.parts[0].mesh.positions) p = {p.x, p.z, -p.y};
-    CHECK(hint(low, lying).find("turned from z up to y up") != std::string::npos);
+    CHECK(hint(low, lying).find("rotated from z up to y up") != std::string::npos);
     Scene cloud = low; // clouds are compared by their vertices
     cloud.parts[0].mesh = {};
     cloud.parts[0].mesh.positions = low.parts[0].mesh.positions;
     Scene lying_cloud = cloud;
     lying_cloud.parts[0].mesh.positions = lying.parts[0].mesh.positions;
-    CHECK(hint(cloud, lying_cloud).find("turned from z up to y up") != std::string::npos);
+    CHECK(hint(cloud, lying_cloud).find("rotated from z up to y up") != std::string::npos);
     ComparisonSettings ignoring;
     ignoring.ignored = {"geometry"};
     CHECK(report::compare(mm, z_up, ignoring).hint.empty());

@@ -110,10 +110,9 @@ class Bombs(Case):
         view = [{"buffer": 0, "byteLength": 36}]
         for count in (2**31, 2**32, 2**63 - 1):
             self.check("zeros.glb", glb(document([accessor(count=count)])), BEYOND, "E-LIMIT")
-        for count, code, message in ((2**31, MALFORMED, "E-BUFFER"), (2**31 + 1, BEYOND, "E-LIMIT"),
-                                     (2**63 - 1, BEYOND, "E-LIMIT")):
+        for count in (2**31, 2**31 + 1, 2**63 - 1):
             self.check("short.glb", glb(document([accessor(count=count, bufferView=0)], views=view, buffer_bytes=36),
-                                        bytes(36)), code, message)
+                                        bytes(36)), MALFORMED, "E-BUFFER")
         self.check("real.glb", glb(document([accessor(count=1e300)])), MALFORMED, "E-GLTF")
         self.check("stride.glb", glb(document([accessor(bufferView=0, count=2**31)], buffer_bytes=36,
                                               views=[{"buffer": 0, "byteLength": 36, "byteStride": 0}]), bytes(36)),
@@ -257,7 +256,8 @@ class Bombs(Case):
         self.check("many.off", b"OFF\n4000000000 4000000000 0\n0 0 0\n", BEYOND, "E-SIZE")
         self.check("binary.off", b"OFF BINARY\n" + b"\x7f\xff\xff\xff" * 3 + bytes(100), MALFORMED, "cannot hold")
         self.check("face.off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", MALFORMED, "cannot hold")
-        self.check("many.stl", bytes(80) + b"\xff" * 4 + bytes(200), MALFORMED, "E-STL")
+        self.check("many.stl", bytes(80) + b"\xfe" * 4 + bytes(200), MALFORMED, "E-STL")
+        self.check("no-count.stl", bytes(80) + b"\xff" * 4 + bytes(200), 0, "W-COUNT")
         self.check("name.stl", b"solid " + b"a" * 50000000, MALFORMED, "E-STL")
         self.check("index.obj", b"f 1 2 999999999999999999999\n", MALFORMED, "E-OBJ")
         self.check("libraries.obj", b"mtllib a.mtl\n" * 500000 + b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 0, "faces")

@@ -220,7 +220,7 @@ class StagesInCells(LargeCase):
         self.mill("pipe", "load", SCAN, "!", "write", "normals.ply", "--normals", "smooth")
         run = self.mill("pipe", "--partition", "always", "load", "normals.ply", "!", "crumple", "!", "write", "o.ply")
         self.assertIn("W-CELLS", run.stderr)
-        self.assertIn("do not carry NORMAL further", run.stderr)
+        self.assertIn("lose NORMAL", run.stderr)
         self.assertNotIn(b"property float nx", (self.dir / "o.ply").read_bytes()[:999])
 
 

@@ -126,7 +126,7 @@ def islands(n=8):
 
 def far_grid():
     points, faces = grid(4, lambda x, y: 100 + 0.25 * x)
-    return [(5e5 + 10 * x, 5e6 + 10 * y, z) for x, y, z in points], faces
+    return [(5e5 + 10.3 * x, 5e6 + 10.3 * y, z) for x, y, z in points], faces
 
 
 # Height 0.5 closes around hills and around pits.
@@ -164,7 +164,7 @@ FILES = {
     "normals.gltf": gltf(normals=[0, 0, 2, 0, 0, 2, 0, 0, 0]),
     "weights.gltf": gltf(weights=[.5, .1, 0, 0] * 3),
     "animated.gltf": gltf(cameras=[{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]),
-    "plain.gltf": gltf(),
+    "plain.gltf": gltf(), "clip.gltf": '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "spawn"}]}',
     "loads.yaml": 'facetmill: 1\nparams: {input: {type: path}}\nstages: [{load: "${input}"}]\n',
     "reports.yaml": 'facetmill: 1\nparams: {input: {type: path}}\nstages: [{load: "${input}"}]\n'
                     'report: "${input.stem}.json"\n',
@@ -190,7 +190,7 @@ FOLLOWED = [
      "pipe load open.off ! clean --holes minimal ! validate --closed true"),
     ("E-CHECK", "pipe load normals.gltf ! validate --unit_normals true", "clean --unit_vectors",
      "pipe load normals.gltf ! clean --unit_vectors ! validate --unit_normals true"),
-    ("E-CHECK", "pipe load normals.gltf ! write n.glb --normals smooth ! validate --unit_normals true",
+    ("E-CHECK", "pipe load normals.gltf ! write n.glb ! validate --unit_normals true",
      "clean --unit_vectors", "pipe load normals.gltf ! clean --unit_vectors ! write n.glb ! validate --unit_normals true"),
     ("E-CHECK", "pipe load weights.gltf ! validate --weights_normalized true", "clean --unit_vectors",
      "pipe load weights.gltf ! clean --unit_vectors ! validate --weights_normalized true"),
@@ -209,7 +209,7 @@ FOLLOWED = [
     ("E-DRAWING", "pipe load part.off ! section z=.5 --path x.pdf", ".svg", "pipe load part.off ! section z=.5 --path x.svg"),
     ("E-DUPLICATE", "facetmill: 1\nstages: [{load: part.off, load: open.off}]", "the first is at t.yaml:2:11",
      "facetmill: 1\nstages: [{load: part.off}]"),
-    ("E-DUPLICATE-INPUT", "info - -", "give - once", "info part.off"),
+    ("E-DUPLICATE-INPUT", "info - -", "give - only once", "info part.off"),
     ("E-DUPLICATE-OUTPUT", "pipe load part.off ! foreach x=1,2 [ write one.ply ]", "one.@{x.index}.ply",
      "pipe load part.off ! foreach x=1,2 [ write 'one.@{x.index}.ply' ]"),
     ("E-EMPTY", "pipe load part.off ! clip z=9 --keep front ! write o.ply", "--when.vertices.min 1",
@@ -239,6 +239,8 @@ FOLLOWED = [
      "--self_intersections avoid",
      "pipe load wavy.off ! split --max_edge 1 ! crumple --amplitude 5 --self_intersections avoid ! write o.ply"),
     ("E-KEY", "pipe load part.off ! relax --iteration 3", "'iterations'", "pipe load wavy.off ! relax --iterations 1 ! write o.ply"),
+    ("E-LIMITS", "pipe load part.off ! validate --limits.bytes 10kB ! write o.ply", "put write out.glb before validate",
+     "pipe load part.off ! write out.glb ! validate --limits.bytes 10kB"),
     ("E-MANIFOLD", "pipe load fin.off ! split loop ! write o.ply", "midpoint", "pipe load fin.off ! split midpoint ! write o.ply"),
     ("E-MANIFOLD", "pipe load fin.off ! split loop ! write o.ply", "clean", "pipe load fin.off ! clean ! split loop ! write o.ply"),
     ("E-MISSING", "pipe load part.off ! clean --weld near ! write o.ply", "--tolerance 0.01%",
@@ -280,6 +282,7 @@ FOLLOWED = [
      "facetmill: 1\nstages: [{load: part.off}, {relax: 1, when: {closed: false}}]"),
     ("W-AMPLITUDE", "pipe load part.off ! crumple --amplitude 5 ! write o.ply", "--self_intersections avoid",
      "pipe load part.off ! crumple --amplitude 5 --self_intersections avoid ! write o.ply"),
+    ("W-BLANK", "pipe load clip.gltf ! render r.png", "when", "pipe load clip.gltf ! render r.png --when.vertices.min 1"),
     ("W-CAP-OPEN", "pipe load open.off ! clip z=.5 --cap ! write o.ply", "clean --holes minimal",
      "pipe load open.off ! clean --holes minimal ! clip z=.5 --cap ! write o.ply"),
     ("W-CHECK", "pipe load open.off ! validate --closed true --severity warn", "clean --holes minimal",
@@ -337,6 +340,7 @@ FOLLOWED = [
     ("W-REST-POSE", "pipe load morph.gltf ! simplify --max_error 5% ! write o.glb", "simplify 50%",
      "pipe load morph.gltf ! simplify 50% ! write o.glb"),
     ("W-ROUNDED", "pipe load far.ply ! write o.stl", "PLY, OBJ or OFF with --precision full", "pipe load far.ply ! write o.ply --precision full"),
+    ("W-DRACO", "pipe load points.ply ! write o.glb --draco", "meshopt", "pipe load points.ply ! write o.glb --meshopt"),
     ("W-FAR", "pipe load '{two,stray}.off' ! merge ! render r.png", "clean --components.keep 1",
      "pipe load '{two,stray}.off' ! merge ! clean --components.keep 1 ! render r.png"),
     ("W-ORIENT-OPEN", "pipe load plane.off ! orient ! write o.ply", "--method flip", "pipe load plane.off ! orient --method flip ! write o.ply"),
@@ -347,7 +351,7 @@ FOLLOWED = [
     ("W-ORIGIN", "pipe load weights.gltf ! write o.glb --origin 1,0,0", "use merge", "pipe --allow W-SKIN load weights.gltf ! merge ! write o.glb --origin 1,0,0"),
     ("W-SKIN", "pipe load weights.gltf ! merge ! write o.glb", "only", "pipe load '{weights.gltf,plain.gltf}' ! merge --only '!mesh_0_2' ! write o.glb"),
     ("W-ANIMATION", "pipe load moving.gltf ! write o.stl", "write .glb", "pipe load moving.gltf ! write o.glb"),
-    ("W-SNAPPED", "pipe load utm.ply ! clip z=100.3 ! write o.ply", "--snap 0", "pipe load utm.ply ! clip z=100.3 --snap 0 ! write o.ply"),
+    ("W-SNAPPED", "pipe load utm.ply ! clip y=5000010.3 ! write o.ply", "--snap 0", "pipe load utm.ply ! clip y=5000010.3 --snap 0 ! write o.ply"),
     ("W-SPLIT-NOTHING", "pipe load wavy.off ! split diagonal ! write o.ply", "midpoint", "pipe load wavy.off ! split midpoint ! write o.ply"),
     ("W-SPLIT-STOPPED", "pipe load wavy.off ! split --max_edge .2 --passes 1 ! write o.ply", "more passes",
      "pipe load wavy.off ! split --max_edge .2 --passes 20 ! write o.ply"),
@@ -368,13 +372,15 @@ ELSEWHERE = "a larger input provokes it: the tests of the stage, of io or of cel
 NOT_FOLLOWED = {
     AT_THE_FILE: """E-3MF E-BUFFER E-CSV E-DXF E-ENCODING E-EXTENSION E-FOOTPRINT E-GEOJSON E-GLB E-GLTF E-GZIP E-INDEX
         E-JSON E-MESHOPT E-MTL E-NODES E-OBJ E-OFF E-PLY E-STL E-TABLE E-TILESET E-VERSION E-WKT E-ZIP E-ZSTD W-FORMAT
-        W-IMAGE W-INCOMPLETE W-INDEX W-MTL W-NODES W-OPTIMIZE W-TEXTURE W-TRAILING""",
+        W-IMAGE W-INCOMPLETE W-INDEX W-MTL W-NODES W-OPTIMIZE W-TEXTURE W-TRAILING W-3MF W-COUNT
+        W-FOOTPRINT W-GLTF""",
     ENVIRONMENT: """E-BUG E-BUSY E-CHANGED E-INVARIANT E-KTX E-MEMORY E-PERMISSION E-READBACK E-SCRATCH E-SIZE E-SPACE
         E-WRITE W-CACHE W-PRUNE W-STATE""",
     ITS_VALUES: """E-CROP-CAP E-DEPFILE E-DRACO E-EXPANSION E-LIMIT E-LINES E-MASK E-NAME E-REQUIRES E-SAVE E-SOLVE
         E-THICKEN E-TRANSFORM E-TYPE E-YAML W-MASK""",
     NOT_A_FAULT: """W-ATTRIBUTE W-EXTENSION W-FACES W-GROUPS W-INSTANCES W-INSTANCING W-MATERIAL W-MESHOPT W-MORPH W-NAME
-        W-NAN W-NOT-FINITE W-SCENES W-SIMPLIFY-NOTHING W-SKIPPED W-TEXTURE-KEPT W-TEXTURES W-TILE-NOTHING""",
+        W-MERGE-STAYS W-NAN W-NOT-FINITE W-SCENES W-SIMPLIFY-NOTHING W-SKIPPED W-TEXTURE-KEPT W-TEXTURES W-TILE-NOTHING
+        W-VOLUME""",
     ELSEWHERE: """W-BASELINE W-BIND-POSE W-CELLS W-CRUMPLE-COARSE W-FANS W-PALETTE W-SECTION-CROSSES W-SIMPLIFY-VANISHED
         W-SPLIT-FOLDED W-SPLIT-SHARED W-SURFACE-LOST W-TRANSFORM""",
 }

@@ -47,7 +47,8 @@ class Text(Case):
                 self.mill("new", str(file), *options)
                 self.assertEqual(self.mill("new", "-", *options).stdout, file.read_text())
                 self.mill("check", str(file))
-                self.mill("run", str(file), "-D", f"input={mesh}", "--output-dir", folder, "--strict")
+                self.mill("run", str(file), "-D", f"input={mesh}", "-D", "unit=mm", "-D", "up=z", "--output-dir", folder,
+                          "--strict")
                 self.assertTrue(list(pathlib.Path(folder).glob("*.glb")))
                 file.write_text("mine")
                 again = self.mill("new", str(file), *options, expect=2)

@@ -217,7 +217,8 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
         {"facetmill: 1\nstages: [test-load: a]\nreport: a.pdf\n",
          "p.yaml:3:9: error[E-REPORT]: a report is .json, .html, .md, .xml (JUnit) or .txt, found 'a.pdf'\n"
          "  report: a.pdf\n"
-         "          ^~~~~"},
+         "          ^~~~~\n"
+         "  hint: give it a suffix: a.html"},
     };
     for (const auto& c : cases) CHECK(planned(c.text).problems == c.problem);
 }

@@ -155,7 +155,7 @@ TEST_CASE("what varies from run to run is in no report", "[report]") {
     slow.stages[0].seconds = 7;
     for (const char* path : {"r.json", "r.html", "r.xml", "r.txt"})
         CHECK(render_for(path, slow) == render_for(path, full_record()));
-    CHECK(render_for("r.html", slow).find("<code>--timings page.html</code> writes it") != std::string::npos);
+    CHECK(render_for("r.html", slow).find("<code>--timings page.html</code> adds") != std::string::npos);
     CHECK(timings_json(slow) != timings_json(full_record()));
     CHECK(timings_json(slow)["stages"][0]["seconds"] == 7);
 }
@@ -435,7 +435,8 @@ TEST_CASE("a report's suffix chooses its form", "[report]") {
     CHECK(Json::parse(render_for("a/b.json", {}))["format"] == 1);
     CHECK(render_for("b.xml", {}).starts_with("<?xml"));
     CHECK(test::failure([] { render_for("b.pdf", {}); }) ==
-          "usage [E-REPORT] a report is .json, .html, .md, .xml (JUnit) or .txt, found 'b.pdf'");
+          "usage [E-REPORT] a report is .json, .html, .md, .xml (JUnit) or .txt, found 'b.pdf' | give it a "
+          "suffix: b.html");
 }
 
 TEST_CASE("bytes that are no UTF-8 do not break a report", "[report]") {

@@ -124,9 +124,9 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
     };
     CHECK(refusal("{path: a.pdf}") == "usage [E-DRAWING] test.yaml:1:8: section: 'a.pdf' is not a supported "
                                       "drawing format | use .svg, .dxf or .json");
-    CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
-          "usage [E-PLANE] test.yaml:1:1: the plane's normal is zero, so it has no direction | for example "
-          "normal: [0, 0, 1]");
+    CHECK(refusal("{plane: {normal: [0, 0, 0]}}") == "usage [E-PLANE] test.yaml:1:1: the plane's normal is "
+                                                     "zero, so it has no direction | give a direction: "
+                                                     "plane: {normal: [0, 0, 1]}");
     CHECK(refusal("w=2") ==
           "usage [E-TYPE] test.yaml:1:1: expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, "
           "x=10%, [A, B, C, D]), found 'w=2'");

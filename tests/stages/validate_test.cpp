@@ -341,7 +341,7 @@ TEST_CASE("validate after write judges the file, in the unit of the scene", "[st
     b.state.number_scene(false); // as a stage that changes the scene
     b.run("validate", options({{"degenerate_faces", "0"}}));
     CHECK(checks_of(b) == "degenerate_faces of  0 passed");
-    CHECK(b.record.said.back() == "judged the scene, not a.glb");
+    CHECK(b.record.said.back() == "checked the scene in memory, not a.glb");
 }
 
 TEST_CASE("validate says what counts towards a limit that fails, the most first", "[stages]") {
@@ -473,6 +473,7 @@ TEST_CASE("validate says that a bare value of a measure is asked for exactly", "
     CHECK(hint("{longest_edge: 2}") == exactly);
     CHECK(hint("{volume: 2}") == exactly);
     CHECK(hint("{min_angle: {min: 60}}") == "use relax to make faces more regular");
-    CHECK(hint("{faces: 7}").starts_with("simplify reduces")); // an exact count is a sensible requirement
+    CHECK(
+        hint("{faces: 7}").starts_with("use simplify to reduce")); // an exact count is a sensible requirement
     CHECK(hint("{volume: 0}") != exactly);
 }

@@ -179,7 +179,7 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
         problems.add(given.mark, "E-MISSING", "clean: near needs a tolerance", "give it: tolerance: 0.01%");
     if (!near && o.tolerance)
         add_refusal(Refusal{"tolerance", "'tolerance' has no effect, because no step is set to near",
-                            "set weld, stitch or t_junctions to near"},
+                            "weld: near, stitch: near or t_junctions: near"},
                     "clean", given, problems);
     const bool may_move = o.single && o.non_manifold && o.weld != Nearness::off;
     if (o.apart && !may_move && given.find("apart"))
