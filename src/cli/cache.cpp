@@ -20,8 +20,9 @@ program and its libraries. A result is stored if storing takes at most a tenth o
 The folder is $XDG_CACHE_HOME/facetmill or ~/.cache/facetmill. You can delete it at any time. If the cache exceeds
 5 GiB or a tenth of the free disk space, the least recently used entries are removed first.
 
---no-cache turns the cache off for one run. FACETMILL_CACHE sets another folder, and the value off turns the cache off. FACETMILL_CACHE_SIZE sets another limit (20G). If CI=true, the cache is only used with --cache, or if
-FACETMILL_CACHE names a folder.
+--no-cache turns the cache off for one run. FACETMILL_CACHE sets another folder, and the value off turns the cache off.
+FACETMILL_CACHE_SIZE sets another limit (20G). If CI=true, the cache is only used with --cache, or if FACETMILL_CACHE
+names a folder.
 
   stats   shows the folder and the size of its contents
   gc      removes leftovers of killed runs, and entries beyond the limit

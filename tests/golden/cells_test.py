@@ -92,7 +92,7 @@ class Cells(LargeCase):
                  ("clean --weld near --tolerance 1%", "clean: weld: near moves vertices", "exact does not"),
                  ("clean --t_junctions near --tolerance 1%", "clean: t_junctions: near moves vertices", "remove that option"),
                  ("clean --holes minimal", "clean: holes: whether a patch meets other faces", "remove that option"),
-                 ("clean --self_intersections union", "clean: self_intersections are between faces anywhere", "leave that option"),
+                 ("clean --self_intersections union", "clean: self_intersections are between faces anywhere", "remove that option"),
                  ("clean --components.keep 1", "clean: components: what hangs together", "remove that option"),
                  ("clean --inner_components", "clean: inner_components: what hangs together", "remove that option"),
                  ("clean --precision single", "clean: precision: single moves vertices", "remove that option"),
