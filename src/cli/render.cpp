@@ -183,7 +183,7 @@ Command render_command() {
                 .followed_by("FILE.png");
             arguments
                 .add("--unit", &options->unit,
-                     "The unit of a file that states none; mm,m: of each of two. Also the unit of a stored "
+                     "The unit of a file that states none; mm,m: of each of two.\nAlso the unit of a stored "
                      "attribute, for the legend.")
                 .followed_by("UNIT");
             arguments

@@ -37,9 +37,10 @@ struct EncodedMesh {
     VertexCacheUse cache;          ///< not set with Draco
 };
 
-/// Triangulates polygons. A mesh without faces and lines is written as points. Positions become float32 with min and max; indices become uint16 if they fit, else
-/// uint32. Degenerate faces are kept, but Draco drops them unless it must keep them (W-FACES). Unused wedges
-/// are dropped. Throws a stage error (E-RANGE) when a position does not fit float32.
+/// Triangulates polygons. A mesh without faces and lines is written as points. Positions become float32 with
+/// min and max; indices become uint16 if they fit, else uint32. Degenerate faces are kept, but Draco drops
+/// them unless it must keep them (W-FACES). Unused wedges are dropped. Throws a stage error (E-RANGE) when a
+/// position does not fit float32.
 [[nodiscard]] EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings,
                                       Written& written);
 
