@@ -178,6 +178,7 @@ class Capper {
         if (!section_.has_contours()) return std::move(cap_);
         make_contours();
         filling_ = fill_disjoint(contours_);
+        cap_.overlaps = overlaps();
         add_points();
         insert_into_walls();
         for (const auto& t : filling_.triangles)
@@ -209,6 +210,10 @@ class Capper {
     }
     Index local(Index vertex) const {
         return static_cast<Index>(std::lower_bound(local_.begin(), local_.end(), vertex) - local_.begin());
+    }
+    bool overlaps() const {
+        const auto& all = filling_.triangles; // copies follow each other
+        return !filling_.added.empty() || std::adjacent_find(all.begin(), all.end()) != all.end();
     }
     /// The vertex of a point of the filling.
     Index vertex(Index i) const {

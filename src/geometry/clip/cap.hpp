@@ -24,6 +24,7 @@ struct Cap {
     std::vector<Index> vertices; ///< the vertices that the corners use, ascending
     std::vector<Index> wedges;   ///< the walls' wedge at each of these vertices
     ExtraPoints extra;
+    bool overlaps = false; ///< contours cross, or go round a region twice: the mesh intersects itself
     std::vector<OpenEnd> open;
 };
 

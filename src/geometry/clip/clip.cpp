@@ -206,68 +206,6 @@ FlatSide flat_side(const Mesh& mesh, const ClipSettings& settings) {
     return settings.coplanar == Coplanar::keep ? FlatSide::front : FlatSide::back;
 }
 
-/// Clips by all planes at once. The front is in front of every plane, as after successive cuts; the back is
-/// the rest. The mesh is first scored along the body's faces. The back gets the reversed caps of the front,
-/// so both fit exactly, and with caps a closed mesh gives two closed meshes. settings.keep must be back or
-/// both.
-ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
-    ClipResult all;
-    ClipSettings inner = settings;
-    inner.keep = Keep::front;
-    inner.convex = false;
-    inner.triangulate = false;
-    const CoordinateErrors snap = settings.snap ? rounding_of(mesh) : CoordinateErrors{};
-    const FlatSide flat = flat_side(mesh, settings);
-    std::vector<std::uint8_t> inside(mesh.face_count(), 1);
-    for (const Plane& plane : settings.planes) {
-        ScoreResult scored = score(mesh, {plane, inside, flat, snap}, inner.memory);
-        std::vector<std::uint8_t> still(scored.source.size());
-        for (std::size_t f = 0; f < still.size(); ++f)
-            still[f] = inside[scored.source[f]] != 0 && scored.sides[f] > 0;
-        inside = std::move(still);
-        mesh = std::move(scored.mesh);
-        all.cut_faces += scored.cut_faces;
-    }
-    number(mesh, Domain::vertex, 0);
-    number(mesh, Domain::wedge, 0);
-    number(mesh, Domain::face, 1);
-    ClipResult front = clip(mesh, inner);
-    const std::size_t cut = all.cut_faces;
-    all = std::move(front);
-    all.cut_faces = cut;
-    forget_change(all.changes, trace);
-    // The whole mesh is inside the body.
-    all.back = Rest(mesh, all.front).run();
-    forget(all.front);
-    if (settings.keep == Keep::back) all.front = {};
-    return all;
-}
-
-/// The same for a point cloud: the back has all points that are not in the front.
-ClipResult clip_cloud(Mesh mesh, const ClipSettings& settings) {
-    ClipSettings inner = settings;
-    inner.keep = Keep::front;
-    inner.convex = false;
-    number(mesh, Domain::vertex, 0);
-    Mesh rest = mesh;
-    ClipResult all = clip(std::move(mesh), inner);
-    std::vector<std::uint8_t> goes(rest.vertex_count());
-    for (const Index v : numbers_of(all.front, Domain::vertex)) goes[v] = 1;
-    drop_unused(rest, goes);
-    forget_change(all.changes, trace);
-    forget(all.front);
-    forget(rest);
-    all.changed = settings.keep == Keep::both ? rest.vertex_count() > 0 : all.front.vertex_count() > 0;
-    all.back = std::move(rest);
-    if (settings.keep == Keep::back) all.front = {};
-    return all;
-}
-
-void make_triangles(ClipResult& result) {
-    for (Mesh* m : {&result.front, &result.back})
-        if (!m->all_triangles()) *m = triangulated(*m);
-}
-
 /// Clips by one plane after the other.
 class Clipper {
   public:
@@ -283,9 +221,12 @@ class Clipper {
         for (std::size_t i = 0; i < settings_.planes.size(); ++i) cut(mesh, i);
         if (settings_.keep != Keep::both)
             (settings_.keep == Keep::front ? result_.front : result_.back) = std::move(mesh);
-        if (settings_.triangulate) make_triangles(result_);
         return std::move(result_);
     }
+    /// Whether caps touch faces that end in their planes, of a manifold mesh.
+    bool solids_touch() const { return touches_ && !overlaps_; }
+    /// Whether the mesh intersects itself in a cap. Its caps are not manifold then, and stay so.
+    bool overlaps() const { return overlaps_; }
 
   private:
     void cut(Mesh& mesh, std::size_t number) {
@@ -348,40 +289,136 @@ class Clipper {
         }
         ClippedSide made = assemble(cut, side, pieces, cap, paint);
         merge_changes(result_.changes, made.changes);
-        if (settings_.cap && cut.on_count > 0) separate_at_touches(made.mesh, *cut.mesh);
+        overlaps_ |= cap.overlaps;
+        if (settings_.cap && cut.on_count > 0 && !overlaps_ && !touches_)
+            touches_ = !connectivity_of(made.mesh).is_manifold() && connectivity_of(*cut.mesh).is_manifold();
         return std::move(made.mesh);
-    }
-
-    /// A cap may touch faces that end in the plane. The solids on both sides of such an edge or vertex become
-    /// separate there, as in combine.
-    void separate_at_touches(Mesh& clipped, const Mesh& before) {
-        if (connectivity_of(clipped).is_manifold() || !connectivity_of(before).is_manifold()) return;
-        const auto old = static_cast<std::ptrdiff_t>(clipped.vertex_count());
-        clipped = split_non_manifold(std::move(clipped));
-        made_.insert(made_.end(), clipped.positions.begin() + old, clipped.positions.end());
     }
 
     const ClipSettings& settings_;
     ClipResult result_;
     CoordinateErrors snap_;
+    bool touches_ = false, overlaps_ = false;
     Index last_cut_ = 0, last_group_ = 0; ///< existing numbers
     std::vector<Vec3> made_;              ///< by the caps of a plane
 };
+
+/// Points added on edges count as on the planes of both ends.
+void remember_middles(CutMemory& memory, const DividedEdges& divided, const Mesh& before) {
+    std::vector<Vec3> ends;
+    ends.reserve(2 * divided.edges.size());
+    for (const auto& e : divided.edges)
+        ends.insert(ends.end(), {before.positions[e.low], before.positions[e.high]});
+    const auto at = memory.entries_at(ends);
+    std::vector<std::vector<Vec3>> on(memory.entries.size());
+    for (std::size_t i = 0; i < divided.edges.size(); ++i)
+        for (const auto entry : at[2 * i])
+            if (std::binary_search(at[2 * i + 1].begin(), at[2 * i + 1].end(), entry))
+                on[entry].push_back(divided.edges[i].point);
+    for (std::size_t entry = 0; entry < on.size(); ++entry)
+        if (!on[entry].empty()) memory.add_to(entry, std::move(on[entry]));
+}
+
+/// A cap may touch faces that end in the plane. The solids on both sides of such an edge or vertex become
+/// separate there, as in combine. This waits until all planes have cut, because clip_body copies the caps of
+/// the front to the back.
+void separate_solids(ClipResult& result) {
+    for (Mesh* mesh : {&result.front, &result.back}) {
+        if (connectivity_of(*mesh).is_manifold()) continue;
+        std::size_t parted = 0;
+        const EdgeTable edges = part_fans(*mesh, parted);
+        DividedEdges divided = divide_crowded_edges(*mesh, edges, {});
+        if (divided.edges.empty()) continue;
+        remember_middles(result.memory, divided, *mesh);
+        merge_changes(result.changes, divided.changes);
+        *mesh = std::move(divided.mesh);
+    }
+}
+
+/// Clips by all planes at once. The front is in front of every plane, as after successive cuts; the back is
+/// the rest. The mesh is first scored along the body's faces. The back gets the reversed caps of the front,
+/// so both fit exactly, and with caps a closed mesh gives two closed meshes. settings.keep must be back or
+/// both.
+ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
+    ClipResult all;
+    ClipSettings inner = settings;
+    inner.keep = Keep::front;
+    inner.convex = false;
+    inner.triangulate = false;
+    const CoordinateErrors snap = settings.snap ? rounding_of(mesh) : CoordinateErrors{};
+    const FlatSide flat = flat_side(mesh, settings);
+    std::vector<std::uint8_t> inside(mesh.face_count(), 1);
+    for (const Plane& plane : settings.planes) {
+        ScoreResult scored = score(mesh, {plane, inside, flat, snap}, inner.memory);
+        std::vector<std::uint8_t> still(scored.source.size());
+        for (std::size_t f = 0; f < still.size(); ++f)
+            still[f] = inside[scored.source[f]] != 0 && scored.sides[f] > 0;
+        inside = std::move(still);
+        mesh = std::move(scored.mesh);
+        all.cut_faces += scored.cut_faces;
+    }
+    number(mesh, Domain::vertex, 0);
+    number(mesh, Domain::wedge, 0);
+    number(mesh, Domain::face, 1);
+    Clipper clipper(inner);
+    ClipResult front = clipper.run(mesh);
+    const std::size_t cut = all.cut_faces;
+    all = std::move(front);
+    all.cut_faces = cut;
+    forget_change(all.changes, trace);
+    // The whole mesh is inside the body.
+    all.back = Rest(mesh, all.front).run();
+    forget(all.front);
+    if (settings.keep == Keep::back) all.front = {};
+    if (settings.cap && !clipper.overlaps() && connectivity_of(mesh).is_manifold()) separate_solids(all);
+    return all;
+}
+
+ClipResult clip_by_planes(Mesh mesh, const ClipSettings& settings) {
+    Clipper clipper(settings);
+    ClipResult all = clipper.run(std::move(mesh));
+    if (clipper.solids_touch()) separate_solids(all);
+    return all;
+}
+
+/// The same for a point cloud: the back has all points that are not in the front.
+ClipResult clip_cloud(Mesh mesh, const ClipSettings& settings) {
+    ClipSettings inner = settings;
+    inner.keep = Keep::front;
+    inner.convex = false;
+    number(mesh, Domain::vertex, 0);
+    Mesh rest = mesh;
+    ClipResult all = clip(std::move(mesh), inner);
+    std::vector<std::uint8_t> goes(rest.vertex_count());
+    for (const Index v : numbers_of(all.front, Domain::vertex)) goes[v] = 1;
+    drop_unused(rest, goes);
+    forget_change(all.changes, trace);
+    forget(all.front);
+    forget(rest);
+    all.changed = settings.keep == Keep::both ? rest.vertex_count() > 0 : all.front.vertex_count() > 0;
+    all.back = std::move(rest);
+    if (settings.keep == Keep::back) all.front = {};
+    return all;
+}
+
+void make_triangles(ClipResult& result) {
+    for (Mesh* m : {&result.front, &result.back})
+        if (!m->all_triangles()) *m = triangulated(*m);
+}
 
 } // namespace
 
 ClipResult clip(Mesh mesh, const ClipSettings& settings) {
     for (const Plane& plane : settings.planes) check_plane(plane);
-    if (settings.convex && settings.keep != Keep::front && settings.planes.size() > 1) {
-        ClipResult result = mesh.corner_count() == 0 ? clip_cloud(std::move(mesh), settings)
-                                                     : clip_body(std::move(mesh), settings);
-        if (settings.triangulate) make_triangles(result);
-        return result;
-    }
-    if (settings.keep == Keep::both && settings.planes.size() != 1)
+    const bool body = settings.convex && settings.keep != Keep::front && settings.planes.size() > 1;
+    if (!body && settings.keep == Keep::both && settings.planes.size() != 1)
         throw_refusal("clip", Refusal{"keep", "'keep: both' takes exactly one plane",
                                       "clip once for every plane, or keep the front or the back"});
-    return Clipper(settings).run(std::move(mesh));
+    ClipResult result = !body                      ? clip_by_planes(std::move(mesh), settings)
+                        : mesh.corner_count() == 0 ? clip_cloud(std::move(mesh), settings)
+                                                   : clip_body(std::move(mesh), settings);
+    if (settings.triangulate) make_triangles(result);
+    return result;
 }
 
 } // namespace facetmill

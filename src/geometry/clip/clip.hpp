@@ -70,8 +70,8 @@ struct ClipResult {
 /// holes nest, and contours that cross still close. Vertices and edges of faces that only touch the plane
 /// become corners and edges of the cap, so faces end in none of its triangles. Points where contours cross
 /// are also inserted into the wall faces. Therefore every closed mesh stays closed. A capped manifold mesh
-/// stays manifold: where solids touch in the plane, each gets its own vertices. Open contours are reported
-/// and left open.
+/// stays manifold, unless it intersects itself in the plane: where solids touch there, each gets its own
+/// vertices. Open contours are reported and left open.
 /// Attributes: kept elements keep their attributes; new vertices and wedges are interpolated; pieces copy
 /// their face's. Cap faces have zeros in face attributes other than "primitive". When the mesh has NORMAL or
 /// TEXCOORD_0, caps get their own wedges with the plane's normal and planar coordinates (the cap's larger

@@ -16,7 +16,7 @@ when it intersects itself.
 If the part covers a region twice, so does its cap.
 If the kept side touches a plane only at a vertex or an edge, this becomes a corner or an edge of the
 cap.
-A manifold part is separated at these places.
+A manifold part is separated at these places, unless it intersects itself in the plane.
 Points that a clip placed on a plane still count as on that plane in later clips, until a stage
 moves them.
 In a point cloud, points on the kept side stay, and points on a plane count as in front.

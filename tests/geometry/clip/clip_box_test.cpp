@@ -1,5 +1,6 @@
 #include "geometry/clip/clip.hpp"
 #include "geometry/cut/score.hpp"
+#include "geometry/inspect/inspect.hpp"
 
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
@@ -95,6 +96,24 @@ TEST_CASE("a turned box leaves closed meshes closed on both sides", "[geometry]"
             CHECK(test::closed(*m));
         }
         CHECK(std::fabs(test::volume(r.front) + test::volume(r.back) - test::volume(mesh)) < 1e-12);
+    }
+}
+
+TEST_CASE("a box whose planes touch vertices and edges leaves manifold solids on both sides", "[geometry]") {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        CAPTURE(seed);
+        Mesh terrain = shapes::grid(8, 8);
+        for (std::size_t v = 0; v < terrain.positions.size(); ++v)
+            terrain.positions[v].z = std::floor(test::between(1, 6, seed, v));
+        const Mesh solid = test::solid_below(terrain);
+        const ClipResult r = clip(solid, at_box(corners({1, -1, -1}, {5, 6, 3})));
+        for (const Mesh* m : {&r.front, &r.back}) {
+            CHECK(broken_invariants(*m).empty());
+            CHECK(test::closed(*m));
+            CHECK(test::edge_manifold(*m));
+            CHECK(inspect(*m).vertex_manifold);
+        }
+        CHECK(test::volume(r.front) + test::volume(r.back) == Approx(test::volume(solid)));
     }
 }
 
