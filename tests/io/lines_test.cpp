@@ -33,7 +33,7 @@ std::string gltf_lines(int mode, const std::string& more = "") {
         R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"name": "wire", "mesh": 0,
 "translation": [10, 0, 0]}}], "materials": [{{"name": "red"}}],
 "meshes": [{{"primitives": [{{"mode": {}, "material": 0, "attributes": {{"POSITION": 0}}{}}}]}}],
-"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}},
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}},
 {{"bufferView": 1, "componentType": 5121, "count": 2, "type": "SCALAR"}}],
 "bufferViews": [{{"buffer": 0, "byteLength": 48}}, {{"buffer": 0, "byteOffset": 48, "byteLength": 2}}],
 "buffers": [{{"byteLength": 50, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAAI="}}]}})",
