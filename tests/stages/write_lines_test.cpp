@@ -207,9 +207,9 @@ TEST_CASE("stages that work on faces leave points as they are, and say so", "[st
         CHECK((std::count(ids.begin(), ids.end(), "W-POINTS") == 1) == warns);
         if (warns)
             CHECK(run.record.warnings.at(0).message ==
-                  std::string(stage) + " works on faces and leaves 2 clouds of points as they are");
+                  std::string(stage) + " works on faces and leaves 2 clouds of points unchanged");
         else
-            CHECK(run.record.said.at(0) == "2 clouds of points left out");
+            CHECK(run.record.said.at(0) == "2 clouds of points skipped");
         const auto without = run_stage(stage, options, scene_of(shapes::cube())).warnings();
         CHECK(std::count(without.begin(), without.end(), "W-POINTS") == 0);
     }
