@@ -7,6 +7,7 @@
 #include "support/temporary.hpp"
 
 #include <fmt/format.h>
+#include <set>
 
 using namespace facetmill;
 using namespace facetmill::test;
@@ -216,8 +217,9 @@ TEST_CASE("a glTF mesh of lines is a part of its document", "[io]") {
     odd.replace(odd.find("\"count\": 4"), 10, "\"count\": 3");
     const Loaded left = load("a.gltf", odd, false);
     CHECK(left.scene.parts.at(0).mesh.line_count() == 1);
-    REQUIRE(left.log.warnings.size() == 1);
-    CHECK(left.log.warnings[0].id == "W-INCOMPLETE");
+    std::multiset<std::string> ids; // the rule about pairs of points, and what reading leaves out
+    for (const auto& warning : left.log.warnings) ids.insert(warning.id);
+    CHECK(ids == std::multiset<std::string>{"W-GLTF", "W-INCOMPLETE"});
     std::string beyond = gltf_lines(1, ", \"indices\": 1");
     beyond.replace(beyond.find("AAAAAI="), 7, "AAAAAk=");
     CHECK(failure([&] { load("a.gltf", beyond, false); }).find("E-INDEX") != std::string::npos);

@@ -179,7 +179,7 @@ TEST_CASE("stages that work on faces leave lines as they are, and say so", "[sta
         CHECK(run.scene.parts.back().mesh.find("COLOR_0", Domain::wedge) != nullptr);
         const auto ids = run.warnings();
         CHECK((std::count(ids.begin(), ids.end(), "W-LINES") == 1) == warns);
-        if (!warns) CHECK(run.record.said.at(0) == "1 part of lines left out");
+        if (!warns) CHECK(run.record.said.at(0) == "1 part of lines skipped");
     }
     const auto moved = run_stage("transform", "{translate: [1, 0, 0], bake: true}", cube_and_wires());
     CHECK(ends_of(moved.scene).at(1) == Vec3{2, 0, 0});
