@@ -6,6 +6,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/gltf.hpp"
+#include "mesh/drawn_box.hpp"
 #include "mesh/float32_ulp.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
@@ -16,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -387,10 +389,16 @@ Tolerances set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings
     return {back.tolerance, std::min(in_order, back.tolerance)};
 }
 
-double distance_of(const Transform& a, const Transform& b) {
+/// The frame of the mesh's box in the world. A grid of positions in the transform does not change it.
+std::array<Vec3, 4> frame_of(const Box& box, const Transform& to_world) {
+    const Vec3 size = box.extent();
+    return {to_world.point(box.min), to_world.vector({size.x, 0, 0}), to_world.vector({0, size.y, 0}),
+            to_world.vector({0, 0, size.z})};
+}
+
+double distance_of(const std::array<Vec3, 4>& a, const std::array<Vec3, 4>& b) {
     double sum = 0;
-    for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t c = 0; c < 4; ++c) sum += (a.m[r][c] - b.m[r][c]) * (a.m[r][c] - b.m[r][c]);
+    for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i] - b[i], a[i] - b[i]);
     return sum;
 }
 
@@ -398,17 +406,24 @@ double distance_of(const Transform& a, const Transform& b) {
 /// instance of the scene that was written.
 void stand_at_written_instances(Scene& back, const Scene& scene) {
     const bool same = back.parts.size() == scene.parts.size();
-    std::vector<PartView> views; // found only when there are instances
+    std::vector<PartView> views;             // found only when there are instances
+    std::vector<std::array<Vec3, 4>> wanted; // [scene.parts]
+    std::vector<std::optional<Box>> boxes(back.parts.size());
     std::vector<double> nearest(back.parts.size(), HUGE_VAL);
     std::vector<Transform> places(back.parts.size());
     const auto compare = [&](std::size_t part, const Transform& place, std::size_t with) {
-        const double d = distance_of(place, scene.parts[with].transform);
+        const double d = distance_of(frame_of(*boxes[part], place), wanted[with]);
         if (!(d < nearest[part])) return;
         nearest[part] = d;
         places[part] = place;
     };
     for_each_place_of_instances(back, [&](std::size_t part, const Transform& place, double) {
-        if (views.empty()) views = part_views(scene);
+        if (views.empty()) {
+            views = part_views(scene);
+            wanted.reserve(views.size());
+            for (const Part& p : scene.parts) wanted.push_back(frame_of(drawn_box(p.mesh), p.transform));
+        }
+        if (!boxes[part]) boxes[part] = drawn_box(back.parts[part].mesh);
         if (same && views[part].instanced) return compare(part, place, part);
         for (std::size_t i = 0; i < views.size(); ++i)
             if (views[i].instanced) compare(part, place, i);

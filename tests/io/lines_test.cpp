@@ -7,6 +7,7 @@
 #include "support/temporary.hpp"
 
 #include <fmt/format.h>
+#include <set>
 
 using namespace facetmill;
 using namespace facetmill::test;
@@ -33,7 +34,7 @@ std::string gltf_lines(int mode, const std::string& more = "") {
         R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}], "nodes": [{{"name": "wire", "mesh": 0,
 "translation": [10, 0, 0]}}], "materials": [{{"name": "red"}}],
 "meshes": [{{"primitives": [{{"mode": {}, "material": 0, "attributes": {{"POSITION": 0}}{}}}]}}],
-"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}},
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}},
 {{"bufferView": 1, "componentType": 5121, "count": 2, "type": "SCALAR"}}],
 "bufferViews": [{{"buffer": 0, "byteLength": 48}}, {{"buffer": 0, "byteOffset": 48, "byteLength": 2}}],
 "buffers": [{{"byteLength": 50, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAAI="}}]}})",
@@ -216,8 +217,9 @@ TEST_CASE("a glTF mesh of lines is a part of its document", "[io]") {
     odd.replace(odd.find("\"count\": 4"), 10, "\"count\": 3");
     const Loaded left = load("a.gltf", odd, false);
     CHECK(left.scene.parts.at(0).mesh.line_count() == 1);
-    REQUIRE(left.log.warnings.size() == 1);
-    CHECK(left.log.warnings[0].id == "W-INCOMPLETE");
+    std::multiset<std::string> ids; // the rule about pairs of points, and what reading leaves out
+    for (const auto& warning : left.log.warnings) ids.insert(warning.id);
+    CHECK(ids == std::multiset<std::string>{"W-GLTF", "W-INCOMPLETE"});
     std::string beyond = gltf_lines(1, ", \"indices\": 1");
     beyond.replace(beyond.find("AAAAAI="), 7, "AAAAAk=");
     CHECK(failure([&] { load("a.gltf", beyond, false); }).find("E-INDEX") != std::string::npos);

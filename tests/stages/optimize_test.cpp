@@ -26,7 +26,7 @@ const char* const buffer =
 {"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}])";
 
 /// A document with these nodes, meshes and other members.
-Scene document(const std::string& nodes, const std::string& meshes, const std::string& more = "") {
+std::string document_text(const std::string& nodes, const std::string& meshes, const std::string& more = "") {
     const Json list = Json::parse("[" + nodes + "]");
     std::set<std::size_t> children;
     for (const Json& node : list)
@@ -35,9 +35,13 @@ Scene document(const std::string& nodes, const std::string& meshes, const std::s
     Json roots = Json::array();
     for (std::size_t n = 0; n < list.size(); ++n)
         if (!children.contains(n)) roots.push_back(n);
-    return read_text(fmt::format(
+    return fmt::format(
         R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":{}}}],"nodes":[{}],"meshes":[{}],{}{}}})",
-        roots.dump(), nodes, meshes, buffer, more.empty() ? "" : "," + more));
+        roots.dump(), nodes, meshes, buffer, more.empty() ? "" : "," + more);
+}
+
+Scene document(const std::string& nodes, const std::string& meshes, const std::string& more = "") {
+    return read_text(document_text(nodes, meshes, more));
 }
 
 std::string mesh(int material, int accessor = 0, const std::string& more = "") {
@@ -437,10 +441,9 @@ TEST_CASE("a set stays while a later one is needed", "[stages]") {
 
 TEST_CASE("accessors of different uses stay apart", "[stages]") {
     // Times and weights of equal numbers.
-    const Scene scene = document(
+    Json json = Json::parse(document_text(
         R"({"mesh":0})", R"({"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":2}]}]})",
-        R"("animations":[{"samplers":[{"input":3,"output":4}],"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}]}])");
-    Json json = Json::parse(scene.documents[0]->json);
+        R"("animations":[{"samplers":[{"input":3,"output":4}],"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}]}])"));
     for (int i = 0; i < 2; ++i)
         json["accessors"].push_back({{"bufferView", 1},
                                      {"componentType", 5126},
@@ -485,8 +488,7 @@ TEST_CASE("accessors of equal bytes become one, and needless bounds go", "[stage
     const std::string channels =
         R"("animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}},{"sampler":1,"target":{"node":0,"path":"scale"}}],
 "samplers":[{"input":3,"output":0},{"input":4,"output":2}]}],"materials":[)";
-    Json json =
-        Json::parse(document(R"({"mesh":0})", mesh(0), channels + colour("red", 1) + "]").documents[0]->json);
+    Json json = Json::parse(document_text(R"({"mesh":0})", mesh(0), channels + colour("red", 1) + "]"));
     for (int i = 0; i < 2; ++i)
         json["accessors"].push_back({{"bufferView", 1},
                                      {"componentType", 5126},
@@ -538,13 +540,10 @@ TEST_CASE("primitives of one material become one in a mesh that is shared, too",
 TEST_CASE("tracks that keep a node where it is go, and the animation stays as long", "[stages]") {
     // Three keys each: the scale rests, the translation does not; the first times end later.
     const auto moved = [](const std::string& channels) {
-        Json json = Json::parse(
-            document(
-                R"({"mesh":0,"scale":[1,1,1.000001]},{"translation":[2,0,0]})", mesh(0),
-                R"("materials":[)" + colour("red", 1) + R"(],"animations":[{"channels":)" + channels +
-                    R"(,"samplers":[{"input":3,"output":0},{"input":3,"output":4},{"input":5,"output":4}]}])")
-                .documents[0]
-                ->json);
+        Json json = Json::parse(document_text(
+            R"({"mesh":0,"scale":[1,1,1.000001]},{"translation":[2,0,0]})", mesh(0),
+            R"("materials":[)" + colour("red", 1) + R"(],"animations":[{"channels":)" + channels +
+                R"(,"samplers":[{"input":3,"output":0},{"input":3,"output":4},{"input":5,"output":4}]}])"));
         std::vector<float> numbers{0, 1, 2, 0, 1, 3};
         numbers.insert(numbers.end(), 9, 1.0F);
         const auto bytes = std::as_bytes(std::span(numbers));

@@ -62,7 +62,7 @@ bool keep_distinct(int& bits, const Mesh& mesh, int usual, std::optional<int> li
     return enough;
 }
 
-/// Parts of the same geometry get the largest number of bits among them, so that it is stored once.
+/// Parts that share a grid get the largest number of bits among them, so that it is stored once.
 void as_shared(std::vector<int>& bits, const DistinctParts& shapes) {
     for (std::size_t i = 0; i < bits.size(); ++i) {
         int& most = bits[shapes.first[i]];
@@ -250,7 +250,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
                                          : bits_of_scene(scene, views, usual);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
-        const DistinctParts shapes = distinct_geometry(scene);
+        const DistinctParts shapes = parts_sharing_grids(scene, views);
         as_shared(s.part_bits, shapes);
         if (grid == Grid::even) {
             const BitLimits limits{usual, limit.value_or(usual), s.draco.on};

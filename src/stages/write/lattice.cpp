@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace facetmill::write_stage {
 
@@ -131,6 +132,24 @@ int bits_for(double length, double step, int most) {
 }
 
 } // namespace
+
+DistinctParts parts_sharing_grids(const Scene& scene, const std::vector<io::PartView>& views) {
+    const DistinctParts equal = distinct_geometry(scene);
+    using SourceMesh = std::tuple<int, int, std::size_t>; // parts of a mesh may have changed since
+    const auto source_of = [&](std::size_t i) {
+        return SourceMesh{scene.parts[i].document, scene.parts[i].source_mesh, equal.first[i]};
+    };
+    std::map<SourceMesh, double> most; // the largest stretch of the nodes of a mesh
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (double& all = most[source_of(i)]; scene.parts[i].source_mesh >= 0)
+            all = std::max(all, stretch_of(views[i].largest));
+    return equal.split_by([&](std::size_t i) -> std::int64_t {
+        const double stretch =
+            scene.parts[i].source_mesh >= 0 ? most[source_of(i)] : stretch_of(views[i].largest);
+        // Float32 transforms of the same scale differ by less than a millionth.
+        return std::isfinite(stretch) ? std::llround(std::log2(stretch) * 0x1p20) : 0;
+    });
+}
 
 EvenGrid even_grid(const Scene& scene, const DistinctParts& shapes, const std::vector<int>& usual,
                    const BitLimits& limits, const std::vector<io::PartView>& views) {

@@ -15,6 +15,10 @@ struct EvenGrid {
     std::vector<int> bits;
 };
 
+/// Equal parts that share a grid, so that their geometry is stored once: nodes enlarge them by the same
+/// factor, or they share a mesh of a document.
+[[nodiscard]] DistinctParts parts_sharing_grids(const Scene& scene, const std::vector<io::PartView>& views);
+
 struct BitLimits {
     int usual = 14;     ///< divide the scene's longest side
     int most = 16;      ///< of a part
@@ -25,9 +29,9 @@ struct BitLimits {
 /// If a node enlarges a part, the step in the part's own coordinates is shorter. Parts that nodes do not
 /// rotate are rounded to the same world points; under Draco, they have the same origin and bits, so that
 /// equal points stay equal to the last bit. If vertices of a part would coincide, its step is halved until
-/// they stay distinct. The limit is 2^most - 1 steps along the part's own longest side. Parts of the same
-/// geometry (shapes) share the finest step among them. Parts that are animated, empty or not finite have no
-/// lattice and keep their usual bits. The same applies to scenes of a single part or point.
+/// they stay distinct. The limit is 2^most - 1 steps along the part's own longest side. Parts that
+/// share a grid (shapes) have the finest step among them. Parts that are animated, empty or not finite have
+/// no lattice and keep their usual bits. The same applies to scenes of a single part or point.
 [[nodiscard]] EvenGrid even_grid(const Scene& scene, const DistinctParts& shapes,
                                  const std::vector<int>& usual, const BitLimits& limits,
                                  const std::vector<io::PartView>& views);

@@ -76,7 +76,7 @@ TEST_CASE("footprints from DXF", "[io]") {
     const auto arc = read(head + "0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n42\n1\n10\n2\n20\n0\n0\nEOF\n");
     CHECK(polygon::signed_area(arc.at(0)) == Approx(pi / 2).epsilon(0.002)); // a half circle of radius 1
     CHECK(refusal(head + "0\nLINE\n10\n0\n20\n0\n0\nEOF\n")
-              .starts_with("malformed [E-FOOTPRINT] outline: there is no polygon"));
+              .starts_with("malformed [E-FOOTPRINT] outline: the file contains no polygon"));
     CHECK(refusal(head + "0\nLWPOLYLINE\n70\n1\n10\nwide\n").starts_with("malformed [E-DXF] outline:"));
     CHECK(refusal("hello") ==
           "malformed [E-FOOTPRINT] outline: this is neither GeoJSON nor WKT nor DXF as text | a "

@@ -512,6 +512,6 @@ TEST_CASE("a part more asks for memory as often as its mesh and its document nee
     };
     const auto [read_few, written_few] = counts(50);
     const auto [read_many, written_many] = counts(150);
-    CHECK(read_many - read_few < 100 * 56);
+    CHECK(read_many - read_few < 100 * 68);
     CHECK(written_many - written_few < 100 * 80);
 }

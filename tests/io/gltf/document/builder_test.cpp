@@ -69,6 +69,11 @@ TEST_CASE("balls of different materials share their geometry under every encodin
 TEST_CASE("morph displacements of zero take no bytes", "[gltf]") {
     Mesh mesh = shapes::icosphere(3);
     std::vector<float> moves(3 * mesh.vertex_count(), 0.25F), zeros(3 * mesh.vertex_count(), 0.0F);
+    std::vector<float> outward; // the normals of a unit sphere
+    outward.reserve(moves.size());
+    for (const Vec3& p : mesh.positions)
+        for (std::size_t c = 0; c < 3; ++c) outward.push_back(static_cast<float>(p[c]));
+    mesh.attributes.push_back({"NORMAL", Domain::vertex, Role::normal, 3, false, outward});
     mesh.attributes.push_back({"TARGET_0_POSITION", Domain::vertex, Role::morph_vector, 3, false, moves});
     mesh.attributes.push_back({"TARGET_0_NORMAL", Domain::vertex, Role::morph_vector, 3, false, zeros});
     const Scene scene = test::scene_in_metres(mesh);

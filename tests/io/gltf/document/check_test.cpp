@@ -23,9 +23,10 @@ Json triangle() {
         "materials": [{"doubleSided": true}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
                        "min": [0, 0, 0], "max": [1, 1, 0]},
-                      {"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR",
-                       "min": [0], "max": [0]}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                      {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR",
+                       "min": [0], "max": [0]},
+                      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteLength": 36}],
         "buffers": [{"byteLength": 36,
                      "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
     })");
@@ -80,11 +81,11 @@ TEST_CASE("other broken rules give a warning with their place", "[gltf]") {
         {R"({"textures": []})", "textures: is empty"},
         {R"({"nodes": [{"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": true}}}]})",
          "nodes[0].extensions.KHR_node_visibility: is not in extensionsUsed"},
-        {R"({"animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": 1, "output": 0}]}]})",
+        {R"({"animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": 1, "output": 2}]}]})",
          "animations[0].samplers[0].output: has 3 values, expected 2"},
         {R"({"materials": [{"emissiveTexture": {"index": 0}}], "textures": [{}]})",
          "meshes[0].primitives[0].material: its emissiveTexture needs TEXCOORD_0"},
-        {R"({"skins": [{"joints": [0], "inverseBindMatrices": 0}]})",
+        {R"({"skins": [{"joints": [0], "inverseBindMatrices": 1}]})",
          "skins[0].inverseBindMatrices: must be MAT4 of floats"},
     };
     for (const auto& [changes, message] : cases) {

@@ -28,7 +28,8 @@ Scene many_attributes(int generic) {
     add("WEIGHTS_0", Role::weights, 4, 0.25F);
     add("TARGET_0_POSITION", Role::morph_vector, 3, 0.5F);
     add("_short", Role::generic, 1, std::uint16_t{3}); // 2 bytes, which are padded
-    for (int i = 0; i < generic; ++i) add("_g" + std::to_string(i), Role::generic, 4, 0.5F);
+    for (int i = 0; i < generic; ++i)
+        add("_g" + std::to_string(i), Role::generic, 4, 0.5F + static_cast<float>(i));
     return test::scene_in_metres(mesh);
 }
 
