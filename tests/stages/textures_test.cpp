@@ -94,7 +94,7 @@ TEST_CASE("textures scales down to powers of two", "[stages]") {
 
 TEST_CASE("nothing asked leaves every byte, broken images too", "[stages]") {
     const io::Bytes whole = io::encoded_png(picture(8, 8)), broken = to_bytes("\x89PNG\r\n\x1a\nbroken");
-    const Scene scene = textured({whole, broken}, every_role);
+    const Scene scene = textured({whole, broken, whole}, every_role);
     const auto run = run_stage("textures", "{}", scene);
     CHECK(run.scene.documents[0] == scene.documents[0]);
     CHECK(run.warnings() == std::vector<std::string>{"W-TEXTURE-KEPT"});
