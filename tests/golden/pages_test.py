@@ -547,7 +547,7 @@ class Pages(Case):
         self.mill("pipe", "-q", "--report", "alone.md", *line)
         self.mill("pipe", "-q", "--report", "beside.md", "--report", "beside.html", *line)
         text = (self.dir / "alone.md").read_text()
-        deviation = re.search(r"\nDeviation from the scene before .*simplify.*: (\S+) % of the diagonal \(removed parts not counted\)\n", text)
+        deviation = re.search(r"\nDeviation from the input: (\S+) % of the diagonal \(removed parts not counted\)\n", text)
         self.assertGreater(float(deviation[1]), 0.1)
         self.assertRegex(" ".join(shown(page).split()), rf"deviation from the scene before 'simplify': {deviation[1]} % of the diagonal ")
         self.assertRegex((self.dir / "beside.md").read_text(), f"Deviation from the scene before .*simplify.*: {deviation[1]} %")
