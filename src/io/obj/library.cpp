@@ -220,7 +220,7 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
     OrderedSet<std::string> names;
     for (const auto& e : events)
         if (e.kind == Event::Kind::library)
-            for (std::string& name : library_names(input, e.text)) names.add(std::move(name));
+            for (const std::string& name : library_names(input, e.text)) names.add(name);
     std::map<std::string, Description> all;
     for (const std::string& name : names.all()) {
         const auto path = input.path().empty() ? std::nullopt : relative_path_of(name);
