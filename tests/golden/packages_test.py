@@ -5,12 +5,14 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import unittest
 
-from support import FACETMILL, SOURCE, STRICT, Case, main
+from support import FACETMILL, SLOW, SOURCE, STRICT, Case, main
 
 PACKAGING = SOURCE / "packaging"
 
 
+@unittest.skipIf(SLOW, "the packages start facetmill as others do; the release build tests them")
 class Packages(Case):
     def run_ok(self, *command, expect=0, cwd=None, **env):
         run = subprocess.run([str(c) for c in command], cwd=cwd or self.dir, capture_output=True, text=True, timeout=600,
