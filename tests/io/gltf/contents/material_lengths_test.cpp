@@ -64,7 +64,8 @@ TEST_CASE("glass that is scaled in the world absorbs as before", "[stages]") {
     for (const char* options : {"{scale: 0.1}", "{scale: 0.1, bake: true}"}) {
         const auto run = run_stage("transform", options, three_glasses());
         check_thickness(run.scene, 0.1);
-        for (const Json& material : Json::parse(run.scene.documents[0]->json)["materials"])
+        const Json document = Json::parse(run.scene.documents[0]->json);
+        for (const Json& material : document["materials"])
             CHECK(material["extensions"]["KHR_materials_volume"]["attenuationDistance"] == 0.03);
     }
 }
