@@ -34,16 +34,29 @@ namespace facetmill {
     return volume > 0 && std::isfinite(volume) && volume != 1 ? exponential(logarithm(volume) / 3) : 1;
 }
 
+/// True if the transform only rotates, mirrors, moves and scales alike along all axes.
+[[nodiscard]] inline bool is_similarity(const Transform& t) {
+    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+    const double xx = dot(x, x), slack = 1e-9 * (xx + dot(y, y) + dot(z, z)); // rounding of a product
+    return std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
+           std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack && std::abs(dot(z, x)) < slack;
+}
+
 /// The largest growth of any length: exact for similarities, otherwise at most sqrt(3) times too large. 1
 /// for a transform that flattens to a point.
 [[nodiscard]] inline double greatest_stretch(const Transform& t) {
     const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
-    const double xx = dot(x, x), sum = xx + dot(y, y) + dot(z, z), slack = 1e-9 * sum;
-    const bool similar = std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
-                         std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack &&
-                         std::abs(dot(z, x)) < slack;
-    const double most = std::sqrt(similar ? xx : sum);
+    const double xx = dot(x, x), most = std::sqrt(is_similarity(t) ? xx : xx + dot(y, y) + dot(z, z));
     return most > 0 ? most : 1;
+}
+
+/// The box around the corners of another box after a transform.
+[[nodiscard]] inline Box box_of_corners(const Box& box, const Transform& t) {
+    Box out;
+    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+        out.add(t.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
+                         (corner & 4 ? box.max : box.min).z}));
+    return out;
 }
 
 } // namespace facetmill

@@ -87,12 +87,8 @@ class TileMaker {
   private:
     /// Like tileset_frame for all vertices, except that vertices of different cells may coincide.
     void choose_frame() {
-        const Box own = partition_.source().contents().bounds;
-        Box box;
-        for (int corner = 0; corner < 8; ++corner)
-            box.add(transform_.point({(corner & 1 ? own.max : own.min).x, (corner & 2 ? own.max : own.min).y,
-                                      (corner & 4 ? own.max : own.min).z}));
-        frame_ = io::usual_frame(box, settings_);
+        frame_ =
+            io::usual_frame(box_of_corners(partition_.source().contents().bounds, transform_), settings_);
         if (auto warning = io::warning_of_place(frame_)) warnings_.emplace(warning->message, *warning);
         const std::size_t n = partition_.tree().leaves.size();
         for (bool changed = true; changed && frame_.step > frame_.finest;) {

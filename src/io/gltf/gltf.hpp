@@ -68,8 +68,6 @@ struct LengthGrowth {
 };
 /// The growth of lengths under a transform; the geometric mean if it differs by direction.
 [[nodiscard]] double length_growth(const Transform& t);
-/// True if the growth is the same in every direction.
-[[nodiscard]] bool grows_evenly(const Transform& t);
 /// Multiplies the lengths in the parts' materials (KHR_materials_volume: the thickness is in the space of the
 /// mesh, the attenuation distance in the world). A material that parts need with different lengths gets
 /// copies. growth: [parts].

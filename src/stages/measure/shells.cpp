@@ -4,6 +4,7 @@
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/measure/measure.hpp"
 #include "geometry/orient/orient.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
@@ -14,12 +15,6 @@ namespace facetmill::measure_stage {
 
 namespace {
 
-bool overlap(const Box& a, const Box& b) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis]) return false;
-    return true;
-}
-
 /// Whether the boxes of two components overlap: the boxes in order of x, each compared with those that begin
 /// before it ends.
 bool any_overlap(const Mesh& mesh, const Components& components) {
@@ -28,7 +23,7 @@ bool any_overlap(const Mesh& mesh, const Components& components) {
     std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min.x < b.min.x; });
     for (std::size_t i = 0; i < boxes.size(); ++i)
         for (std::size_t k = i + 1; k < boxes.size() && boxes[k].min.x <= boxes[i].max.x; ++k)
-            if (overlap(boxes[i], boxes[k])) return true;
+            if (boxes_meet(boxes[i], boxes[k])) return true;
     return false;
 }
 

@@ -3,6 +3,7 @@
 #include "io/flatten.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/skin.hpp"
+#include "mesh/transform.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stage/stage.hpp"
 #include "stages/merge/help.hpp"
@@ -96,7 +97,7 @@ void keep_thickness(Scene& scene, const std::vector<bool>& chosen, Context& cont
         const Part& part = scene.parts[i];
         if (!chosen[i] || thick[i].empty()) continue;
         growth[i].mesh = io::length_growth(part.transform);
-        if (!io::grows_evenly(part.transform))
+        if (!is_similarity(part.transform))
             context.warn("W-VOLUME",
                          fmt::format("merge: the scale of part '{}' differs by direction, so its "
                                      "thickness becomes the mean of three",

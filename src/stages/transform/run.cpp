@@ -1,6 +1,7 @@
 #include "cells/process/inspect_cells.hpp"
 #include "io/gltf/gltf.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/transform.hpp"
 #include "stages/transform/help.hpp"
 #include "stages/transform/report.hpp"
 
@@ -140,7 +141,7 @@ class Mover {
         context_.for_each_part(scene_, [&](Part& part) {
             const auto i = static_cast<std::size_t>(&part - scene_.parts.data());
             if (part.skinned) return;
-            const bool uneven = !thick[i].empty() && !io::grows_evenly(part.transform);
+            const bool uneven = !thick[i].empty() && !is_similarity(part.transform);
             if (const char* reason = reason_to_keep_node(views[i], uneven))
                 return warn_of_kept_node(part.name, reason, context_);
             apply(part.mesh, part.transform);

@@ -33,14 +33,6 @@ double length_in(const Json& material, const char* key) {
 /// Nine digits hold a float32 exactly, and hide the rounding of the factor.
 double with_nine_digits(double x) { return parse_real(fmt::format("{:.9g}", x)).value_or(x); }
 
-/// True if the transform only rotates, mirrors, moves and scales alike along all axes.
-bool is_even(const Transform& t) {
-    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
-    const double xx = dot(x, x), slack = 1e-9 * (xx + dot(y, y) + dot(z, z)); // rounding of a product
-    return std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
-           std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack && std::abs(dot(z, x)) < slack;
-}
-
 bool grows(const LengthGrowth& g) { return g.mesh != 1 || g.world != 1; }
 
 /// The documents of a scene whose materials have volumes, parsed on first use.
@@ -121,11 +113,9 @@ class SceneScaler {
 } // namespace
 
 double length_growth(const Transform& t) {
-    const double growth = is_even(t) ? length(t.vector({1, 0, 0})) : mean_stretch(t);
+    const double growth = is_similarity(t) ? length(t.vector({1, 0, 0})) : mean_stretch(t);
     return std::abs(growth - 1) < 1e-9 || !(growth > 0) ? 1 : growth; // the rounding of a rotation
 }
-
-bool grows_evenly(const Transform& t) { return is_even(t); }
 
 void scale_material_lengths(Scene& scene, const std::vector<LengthGrowth>& growth) {
     if (std::none_of(growth.begin(), growth.end(), grows)) return;

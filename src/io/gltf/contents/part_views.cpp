@@ -5,6 +5,7 @@
 #include "io/gltf/read/instances.hpp"
 #include "mesh/drawn_box.hpp"
 #include "mesh/finite_box.hpp"
+#include "mesh/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -210,15 +211,6 @@ Box box_in_world(const Part& part) {
                          [&](std::size_t v) { return part.transform.point(part.mesh.positions[v]); });
 }
 
-/// The box around the corners of another one after a transform.
-Box moved(const Box& box, const Transform& t) {
-    Box out;
-    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
-        out.add(t.point({(corner & 1 ? box.max : box.min).x, (corner & 2 ? box.max : box.min).y,
-                         (corner & 4 ? box.max : box.min).z}));
-    return out;
-}
-
 /// Adds the boxes of all instances of parts that are drawn.
 void add_instances(const Scene& scene, const std::vector<PartView>& views, Box& shown) {
     const bool any = std::any_of(views.begin(), views.end(),
@@ -229,7 +221,7 @@ void add_instances(const Scene& scene, const std::vector<PartView>& views, Box& 
         if (!views[i].is_drawn()) return;
         const auto [known, first] = boxes.try_emplace(i);
         if (first) known->second = drawn_box(scene.parts[i].mesh);
-        shown.add(moved(known->second, place));
+        shown.add(box_of_corners(known->second, place));
     });
 }
 } // namespace

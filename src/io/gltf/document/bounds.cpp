@@ -2,6 +2,7 @@
 
 #include "io/gltf/document/check.hpp"
 
+#include "io/gltf/document/accessor_uses.hpp"
 #include "io/gltf/document/builder.hpp"
 #include "parallel/parallel.hpp"
 
@@ -11,23 +12,6 @@
 namespace facetmill::io::gltf {
 
 namespace {
-
-/// The accessors whose bounds glTF requires: positions, their morph targets, and the times of animations.
-std::vector<bool> needing_bounds(const Json& document) {
-    std::vector<bool> needed(count_of(document, "accessors"));
-    const auto need = [&](const Json& owner, const char* key) {
-        if (const auto index = index_at(owner, key, needed.size())) needed[*index] = true;
-    };
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
-        for (const Json& primitive : document["meshes"][m]["primitives"]) {
-            need(primitive["attributes"], "POSITION");
-            if (primitive.contains("targets"))
-                for (const Json& target : primitive["targets"]) need(target, "POSITION");
-        }
-    for (std::size_t a = 0; a < count_of(document, "animations"); ++a)
-        for (const Json& sampler : document["animations"][a]["samplers"]) need(sampler, "input");
-    return needed;
-}
 
 /// The accessors whose numbers Draco has.
 std::vector<bool> of_draco(const Json& document) {
@@ -105,7 +89,7 @@ bool same(const Json& told, const std::vector<double>& numbers, bool floats) {
 } // namespace
 
 bool correct_bounds(Json& document, Source& source, Breaches& breaches) {
-    const std::vector<bool> needed = needing_bounds(document);
+    const std::vector<bool> needed = accessors_needing_bounds(document);
     const std::vector<bool> draco = of_draco(document);
     bool changed = false;
     for (std::size_t a = 0; a < needed.size(); ++a) {

@@ -1,3 +1,4 @@
+#include "io/gltf/document/accessor_uses.hpp"
 #include "io/gltf/document/rules.hpp"
 
 #include <algorithm>
@@ -10,39 +11,6 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// A user of an accessor.
-enum class Use { vertices, indices, bind_matrices, times, values, instances };
-
-/// Calls visit(use, semantic or path, reference) for every use of an accessor. The semantic of a morph target
-/// begins with "TARGET ".
-template <class Visit>
-void each_use(const Json& document, const Visit& visit) {
-    const auto named = [&](Use use, const std::string& prefix, const JsonCursor& of) {
-        for (const auto& [key, value] : of.json().get_ref<const Json::object_t&>())
-            visit(use, prefix + key, JsonCursor(of, {&key, 0}, value));
-    };
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
-        const JsonCursor primitives = item(document, "meshes", m).at("primitives");
-        for (std::size_t p = 0; p < primitives.size(); ++p) {
-            const JsonCursor primitive = primitives.at(p);
-            named(Use::vertices, "", primitive.at("attributes"));
-            if (const auto indices = primitive.find("indices")) visit(Use::indices, std::string(), *indices);
-            const auto targets = primitive.find("targets");
-            for (std::size_t t = 0; targets && t < targets->size(); ++t)
-                named(Use::vertices, "TARGET ", targets->at(t));
-        }
-    }
-    for (std::size_t s = 0; s < count_of(document, "skins"); ++s)
-        if (const auto matrices = item(document, "skins", s).find("inverseBindMatrices"))
-            visit(Use::bind_matrices, std::string(), *matrices);
-    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
-        const JsonCursor samplers = item(document, "animations", a).at("samplers");
-        for (std::size_t s = 0; s < samplers.size(); ++s) {
-            visit(Use::times, std::string(), samplers.at(s).at("input"));
-            visit(Use::values, std::string(), samplers.at(s).at("output"));
-        }
-    }
-}
 class DataRules {
   public:
     explicit DataRules(const CheckedDocument& document) : document_(document) {}
@@ -100,11 +68,14 @@ class DataRules {
             document_.breaches.add(place, "the offset of matrices is not a multiple of 4 bytes");
     }
 
+    using Use = AccessorUse;
+
     /// Rules for the views of vertices, indices and other numbers.
     void uses() {
         std::map<std::size_t, Use> view_use;
         std::map<std::size_t, std::set<std::size_t>> vertices_of; // by view
-        each_use(document_.json, [&](Use use, const std::string&, const JsonCursor& reference) {
+        each_accessor_use(document_.json, [&](Use use, const std::string&, const JsonCursor& reference) {
+            if (use == Use::instances) return; // the extension has its own rules
             const Json& accessor = document_.at("accessors", reference.json());
             if (!accessor.contains("bufferView")) return;
             const std::size_t v = number_in(accessor, "bufferView");

@@ -11,6 +11,8 @@
 
 namespace facetmill::io::gltf {
 
+inline constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
+
 /// A node of the hierarchy.
 struct NodeFrame {
     Transform local, world;

@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "io/gltf/contents/textures.hpp"
+#include "io/gltf/document/accessor_uses.hpp"
 #include "io/gltf/document/builder.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/gltf/document/node_references.hpp"
@@ -152,47 +153,16 @@ std::vector<std::size_t> DocumentOptimizer::merge_equal(bool keep_names) {
     return first;
 }
 
-namespace {
-
-/// [accessors] the kinds of use: the validator forbids an accessor with several.
-std::vector<std::set<char>> accessor_uses(const Json& document) {
-    std::vector<std::set<char>> uses(count_of(document, "accessors"));
-    const auto use = [&](const Json& owner, const char* key, char kind) {
-        if (const auto a = index_at(owner, key, uses.size())) uses[*a].insert(kind);
-    };
-    const auto members = [&](const Json& owner, const Json::json_pointer& key, char kind) {
-        if (owner.contains(key) && owner[key].is_object())
-            for (const auto& [name, value] : owner[key].items()) use(owner[key], name.c_str(), kind);
-    };
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
-        for (const Json& primitive : document["meshes"][m]["primitives"]) {
-            use(primitive, "indices", 'i');
-            members(primitive, Json::json_pointer("/attributes"), 'v');
-            if (!primitive.contains("targets")) continue;
-            for (const Json& target : primitive["targets"]) members(target, Json::json_pointer(), 'v');
-        }
-    for (std::size_t a = 0; a < count_of(document, "animations"); ++a)
-        for (const Json& sampler : document["animations"][a]["samplers"]) {
-            use(sampler, "input", 't');
-            use(sampler, "output", 'o');
-        }
-    for (std::size_t s = 0; s < count_of(document, "skins"); ++s)
-        use(document["skins"][s], "inverseBindMatrices", 'b');
-    for (std::size_t n = 0; n < count_of(document, "nodes"); ++n)
-        members(document["nodes"][n], Json::json_pointer("/extensions/EXT_mesh_gpu_instancing/attributes"),
-                'n');
-    return uses;
-}
-
-} // namespace
-
 std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
     if (may_name_accessors(json_)) return 0;
     std::vector<Bytes> buffers = document_.buffers;
     buffers.insert(buffers.end(), added_.begin(), added_.end());
     Source source(json_, buffers);
     const std::size_t count = count_of(json_, "accessors");
-    const auto uses = accessor_uses(json_);
+    std::vector<unsigned> uses(count); // a bit for each kind: the validator forbids an accessor with several
+    each_accessor_use(json_, [&](AccessorUse use, const std::string&, const JsonCursor& reference) {
+        uses[reference.index(count, "accessor")] |= 1U << static_cast<unsigned>(use);
+    });
     std::vector<std::string> said(count);
     std::map<std::string, std::size_t> alike;
     for (std::size_t a = 0; a < count; ++a) {
@@ -203,8 +173,7 @@ std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
             continue;
         for (const char* key : {"name", "bufferView", "byteOffset", "min", "max"}) item.erase(key);
         const Json& view = json_["bufferViews"][json_["accessors"][a]["bufferView"].get<std::size_t>()];
-        said[a] = to_string(item) + to_string(view.value("target", Json())) +
-                  std::string(uses[a].begin(), uses[a].end());
+        said[a] = fmt::format("{}{} {}", to_string(item), to_string(view.value("target", Json())), uses[a]);
         ++alike[said[a]];
     }
     for (std::size_t a = 0; a < count; ++a) {
@@ -231,21 +200,10 @@ std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
 
 /// Drops minima and maxima of accessors, which glTF requires only for positions and times.
 void DocumentOptimizer::drop_bounds() {
-    std::set<std::size_t> needed;
-    const auto need = [&](const Json& owner, const char* key) {
-        if (const auto index = index_at(owner, key)) needed.insert(*index);
-    };
-    for (std::size_t m = 0; m < count_of(json_, "meshes"); ++m)
-        for (const Json& primitive : json_["meshes"][m]["primitives"]) {
-            if (primitive.contains("attributes")) need(primitive["attributes"], "POSITION");
-            if (primitive.contains("targets"))
-                for (const Json& target : primitive["targets"]) need(target, "POSITION");
-        }
-    for (std::size_t a = 0; a < count_of(json_, "animations"); ++a)
-        for (const Json& sampler : json_["animations"][a]["samplers"]) need(sampler, "input");
-    for (std::size_t a = 0; a < count_of(json_, "accessors"); ++a)
+    const std::vector<bool> needed = accessors_needing_bounds(json_);
+    for (std::size_t a = 0; a < needed.size(); ++a)
         for (const char* key : {"min", "max"})
-            if (!needed.contains(a)) json_["accessors"][a].erase(key);
+            if (!needed[a]) json_["accessors"][a].erase(key);
 }
 
 std::set<std::size_t> DocumentOptimizer::unnamed(const char* list, References references,

@@ -9,7 +9,6 @@
 
 namespace facetmill::io::gltf {
 
-inline constexpr const char* instancing_extension = "EXT_mesh_gpu_instancing";
 /// Numbers the instances of the same node, so it moves with them.
 inline constexpr const char* instance_features = "EXT_instance_features";
 
