@@ -36,11 +36,11 @@ std::vector<report::Check> judged(Engine& run, const Assertions& assertions, con
     return evaluate(resolved(assertions, scene, context), inspect(scene, assertions.settings()), step.name);
 }
 
-bool is_skipped(Engine& run, const Step& step, const Scene& scene) {
+bool is_skipped(Engine& run, const Step& step, SceneState& flow) {
     if (!step.when) return false;
     if (step.when->known) return !*step.when->known;
     report::StageRecord none; // the step has a record only if it runs
-    const auto results = judged(run, step.when->predicates, step, scene, io::drawn_bounds(scene), none);
+    const auto results = judged(run, step.when->predicates, step, flow.scene, flow.drawn_bounds(), none);
     return !std::all_of(results.begin(), results.end(), [](const auto& check) { return check.passed; });
 }
 
@@ -102,7 +102,8 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     const Stopwatch watch;
     const ProgressScope share(run.settings.progress);
     const bool done = run.failures.guarded(step.where, what, [&] {
-        Context context(run.state, stage, step.only, io::drawn_bounds(scene), step.where);
+        const Box entering = left && left->drawn ? *left->drawn : io::drawn_bounds(scene);
+        Context context(run.state, stage, step.only, entering, step.where);
         if (!step.only.patterns.empty() && !step.info->loads) warn_of_empty_selection(step, scene, context);
         scene = perform(*step.stage, std::move(scene), context, surfaces);
         require_finite(scene);
@@ -111,11 +112,12 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     stage.seconds = watch.seconds();
     if (!done) return false;
     stage.after = report::brief_of(scene);
-    if (step.info->loads) run.state.load_diagonal = diagonal(io::drawn_bounds(scene));
+    std::optional<Box> drawn;
+    if (step.info->loads) run.state.load_diagonal = diagonal(drawn.emplace(io::drawn_bounds(scene)));
     if (step.info->loads && run.keeps_loaded)
         run.state.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
-    run.cache.keep(step, flow, run.state, stage, before);
-    flow.left = {*stage.after, std::move(surfaces)};
+    run.cache.keep(step, flow, run.state, stage, before, drawn);
+    flow.left = {*stage.after, std::move(surfaces), drawn};
     return true;
 }
 
@@ -240,7 +242,7 @@ bool run_arms(Engine& run, const Step& step, SceneState& flow, bool needed) {
 std::optional<bool> run_step(Engine& run, const Step& step, SceneState& flow, bool needed) {
     bool skip = false;
     if (looks_ahead(step) && !run.fetch(step.where, step.name, flow)) return {};
-    if (!run.failures.guarded(step.where, "the condition", [&] { skip = is_skipped(run, step, flow.scene); }))
+    if (!run.failures.guarded(step.where, "the condition", [&] { skip = is_skipped(run, step, flow); }))
         return {};
     if (skip) {
         record_skipped(run, step);

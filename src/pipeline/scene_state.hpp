@@ -26,6 +26,7 @@ struct SceneState {
     struct Left {
         report::Brief brief;
         std::optional<std::vector<PartSurface>> surfaces;
+        std::optional<Box> drawn; ///< io::drawn_bounds, once it is known
     };
     std::optional<Left> left;
     /// The key of the scene after the recalled steps: equal keys mean equal scenes. Empty: not yet known.
@@ -45,7 +46,13 @@ struct SceneState {
 
     /// True if `scene` is the current scene.
     bool is_here() const { return recalled.empty(); }
-    Box drawn_bounds() const { return is_here() ? io::drawn_bounds(scene) : recalled.back().memory.bounds; }
+    /// Found once for each scene, because documents must be parsed for it.
+    Box drawn_bounds() {
+        if (!is_here()) return recalled.back().memory.bounds;
+        if (!left) return io::drawn_bounds(scene);
+        if (!left->drawn) left->drawn = io::drawn_bounds(scene);
+        return *left->drawn;
+    }
     /// The same scene for an arm. Work to fetch it is done once, for all arms.
     SceneState branched_off() {
         SceneState arm;

@@ -213,7 +213,7 @@ StageCache::Before StageCache::before(const Step& step, const SceneState& flow, 
 }
 
 void StageCache::keep(const Step& step, SceneState& flow, const RunState& run,
-                      const report::StageRecord& stage, const Before& before) {
+                      const report::StageRecord& stage, const Before& before, std::optional<Box>& drawn) {
     if (!store_) return;
     know_documents(flow.scene);
     for (const auto& input : since(run.record.inputs, before.inputs))
@@ -229,14 +229,15 @@ void StageCache::keep(const Step& step, SceneState& flow, const RunState& run,
                                      [&](const Diagnostic& d) { return same_mark(d.where, step.where); });
     if (before.key.empty() || does_more || !at_step) return flow.replaced();
     try {
-        keep_known(step, flow, run, stage, before);
+        keep_known(step, flow, run, stage, before, drawn);
     } catch (const std::bad_alloc&) { // the scene itself is there
         flow.replaced();
     }
 }
 
 void StageCache::keep_known(const Step& step, SceneState& flow, const RunState& run,
-                            const report::StageRecord& stage, const Before& before) {
+                            const report::StageRecord& stage, const Before& before,
+                            std::optional<Box>& drawn) {
     flow.key = step.info->loads ? "" : before.key;
     flow.unsaved += stage.seconds;
     cache::Memory memory;
@@ -248,7 +249,8 @@ void StageCache::keep_known(const Step& step, SceneState& flow, const RunState& 
             return warning.message.find(step.name) != std::string::npos;
         });
     if (tells_name) memory.told_name = step.name;
-    memory.bounds = io::drawn_bounds(flow.scene);
+    if (!drawn) drawn = io::drawn_bounds(flow.scene);
+    memory.bounds = *drawn;
     if (step.info->loads) {
         memory.record = stage;
         flow.loaded = {before.key, std::move(memory)};

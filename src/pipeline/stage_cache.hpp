@@ -42,9 +42,10 @@ class StageCache {
         double load_diagonal = 0;
     };
     Before before(const Step& step, const SceneState& flow, const RunState& run) const;
-    /// Call it after a successful stage; the flow contains its scene.
+    /// Call it after a successful stage; the flow contains its scene. drawn: io::drawn_bounds of the scene,
+    /// found here if it is needed and not yet known.
     void keep(const Step& step, SceneState& flow, const RunState& run, const report::StageRecord& stage,
-              const Before& before);
+              const Before& before, std::optional<Box>& drawn);
 
     /// Call it before a flow branches into these arms, so that common work is done once.
     void before_arms(SceneState& flow, const std::vector<Arm>& arms) const;
@@ -57,7 +58,7 @@ class StageCache {
     bool may_recall(const Step& step) const;
     bool recall_known(const Step& step, SceneState& flow, RunState& run, report::StageRecord& stage);
     void keep_known(const Step& step, SceneState& flow, const RunState& run, const report::StageRecord& stage,
-                    const Before& before);
+                    const Before& before, std::optional<Box>& drawn);
     static void know_key(SceneState& flow);
     std::string key_of(const Step& step, const SceneState& flow, double load_diagonal) const;
     void run_again(SceneState& flow, std::size_t first);
