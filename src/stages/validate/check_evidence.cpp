@@ -62,6 +62,25 @@ report::CheckEvidence evidence_against(const Scene& scene, const Assertion& asse
     return evidence;
 }
 
+Findings findings_against(const Scene& scene, const Assertion& assertion) {
+    const Property& property = property_of(assertion);
+    const bool of_faces = property.of_faces && !property.evidence && property.counts_locations;
+    Findings found;
+    std::size_t count = 0;
+    for (std::size_t i = 0; of_faces && i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
+        const std::vector<Location> all = locations_against(part, assertion); // the worst first
+        count += all.size();
+        for (std::size_t k = 0; k < all.size() && found.evidence.size() < max_evidence; ++k)
+            found.evidence.push_back(entry_of(property, evidence_of(part, all[k])));
+    }
+    if (count > 0)
+        found.locations = count;
+    else
+        found = {evidence_against(scene, assertion), count_locations(scene, assertion)};
+    return found;
+}
+
 report::CheckEvidence evidence_among(const Scene& scene, const Assertion& assertion,
                                      const std::vector<std::uint64_t>& keys) {
     const Property& property = property_of(assertion);

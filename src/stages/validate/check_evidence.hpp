@@ -18,6 +18,14 @@ constexpr std::size_t max_evidence = 10;
 /// their names.
 [[nodiscard]] report::CheckEvidence evidence_against(const Scene& scene, const Assertion& assertion);
 
+/// The evidence against a failed assertion, and the number of its locations (count_locations).
+struct Findings {
+    report::CheckEvidence evidence;
+    std::optional<std::size_t> locations;
+};
+/// Finds both, with one measurement of properties of faces.
+[[nodiscard]] Findings findings_against(const Scene& scene, const Assertion& assertion);
+
 /// The evidence at only the locations with these keys (ascending).
 [[nodiscard]] report::CheckEvidence evidence_among(const Scene& scene, const Assertion& assertion,
                                                    const std::vector<std::uint64_t>& keys);

@@ -171,9 +171,11 @@ class Judge {
             const auto verdict = known_.judge(failure);
             // If some locations are already known, new locations come first.
             const bool some = verdict.known && !verdict.keys.empty();
-            check.evidence =
-                some ? evidence_among(scene, assertion, verdict.keys) : evidence_against(scene, assertion);
-            check.locations = count_locations(scene, assertion);
+            Findings found = some ? Findings{evidence_among(scene, assertion, verdict.keys),
+                                             count_locations(scene, assertion)}
+                                  : findings_against(scene, assertion);
+            check.evidence = std::move(found.evidence);
+            check.locations = found.locations;
             if (subject.faces) renumber(*check.evidence, *subject.faces);
             if (!take(std::move(check), std::move(failure), verdict) && s_.mark)
                 flag(scene, subject, assertion);
