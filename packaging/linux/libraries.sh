@@ -5,12 +5,12 @@
 # ask that people can get exactly these sources. A library that PREFIX already has in the wanted version is kept.
 set -eu
 prefix=${1:?usage: libraries.sh PREFIX}
-mkdir -p "$prefix/lib" "$prefix/include" "$prefix/work"
+mkdir -p "$prefix/lib" "$prefix/include" "$prefix/build"
 prefix=$(cd "$prefix" && pwd)
 jobs=${JOBS:-2}
 
 # A private configuration of apt, so that the machine's list of sources stays as it is.
-apt=$prefix/work/apt
+apt=$prefix/build/apt
 mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial"
 suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
 cat >"$apt/sources.list" <<LIST
@@ -29,51 +29,51 @@ apt-get update -qq
 
 fetch() { # fetch PACKAGE: unpacks its source, and sets `source`
     version=$(apt-cache showsrc "$1" | sed -n 's/^Version: //p' | sort -V | tail -1)
-    rm -rf "$prefix/work/$1" && mkdir -p "$prefix/work/$1"
-    (cd "$prefix/work/$1" && apt-get source -qq "$1=$version" >/dev/null 2>&1)
-    source=$(find "$prefix/work/$1" -mindepth 1 -maxdepth 1 -type d)
+    rm -rf "$prefix/build/$1" && mkdir -p "$prefix/build/$1"
+    (cd "$prefix/build/$1" && apt-get source -qq "$1=$version" >/dev/null 2>&1)
+    source=$(find "$prefix/build/$1" -mindepth 1 -maxdepth 1 -type d)
     echo "$1 $version" >>"$prefix/sources.txt.new"
-    grep -qx "$1 $version" "$prefix/sources.txt" 2>/dev/null && [ -e "$prefix/work/$1.built" ] && return 1
+    grep -qx "$1 $version" "$prefix/sources.txt" 2>/dev/null && [ -e "$prefix/build/$1.built" ] && return 1
     echo "building $1 $version" >&2
 }
 
 with_cmake() { # with_cmake PACKAGE [OPTION...]
     package=$1 && shift
-    cmake -S "$source" -B "$prefix/work/$package/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
+    cmake -S "$source" -B "$prefix/build/$package/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
         -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
         "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=." "-DCMAKE_C_FLAGS=-ffile-prefix-map=$source=." \
-        ${FACETMILL_TOOLCHAIN:+-DCMAKE_TOOLCHAIN_FILE="$FACETMILL_TOOLCHAIN"} "$@" >"$prefix/work/$package.log" 2>&1
-    cmake --build "$prefix/work/$package/build" -j "$jobs" >>"$prefix/work/$package.log" 2>&1 || {
-        tail -30 "$prefix/work/$package.log" >&2
+        ${FACETMILL_TOOLCHAIN:+-DCMAKE_TOOLCHAIN_FILE="$FACETMILL_TOOLCHAIN"} "$@" >"$prefix/build/$package.log" 2>&1
+    cmake --build "$prefix/build/$package/build" -j "$jobs" >>"$prefix/build/$package.log" 2>&1 || {
+        tail -30 "$prefix/build/$package.log" >&2
         exit 1
     }
 }
 
 rm -f "$prefix/sources.txt.new"
 if fetch fmtlib; then
-    with_cmake fmtlib -DFMT_TEST=OFF -DFMT_DOC=OFF && cmake --install "$prefix/work/fmtlib/build" >/dev/null
-    touch "$prefix/work/fmtlib.built"
+    with_cmake fmtlib -DFMT_TEST=OFF -DFMT_DOC=OFF && cmake --install "$prefix/build/fmtlib/build" >/dev/null
+    touch "$prefix/build/fmtlib.built"
 fi
 if fetch meshoptimizer; then
-    with_cmake meshoptimizer && cmake --install "$prefix/work/meshoptimizer/build" >/dev/null
-    touch "$prefix/work/meshoptimizer.built"
+    with_cmake meshoptimizer && cmake --install "$prefix/build/meshoptimizer/build" >/dev/null
+    touch "$prefix/build/meshoptimizer.built"
 fi
 if fetch onetbb; then
     # Without the lookups of other libraries at start: a static program has no use for them.
     sed -i '1i #define __TBB_WEAK_SYMBOLS_PRESENT 0' "$source/src/tbb/dynamic_link.cpp"
     with_cmake onetbb -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_EXAMPLES=OFF \
-        "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. -U__TBB_USE_ITT_NOTIFY" && cmake --install "$prefix/work/onetbb/build" >/dev/null
-    touch "$prefix/work/onetbb.built"
+        "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. -U__TBB_USE_ITT_NOTIFY" && cmake --install "$prefix/build/onetbb/build" >/dev/null
+    touch "$prefix/build/onetbb.built"
 fi
 if fetch openmesh; then
     # Debian's patch removes the static libraries: its objects are put into archives instead.
     with_cmake openmesh -DBUILD_APPS=OFF -DOPENMESH_BUILD_UNIT_TESTS=OFF -DOPENMESH_DOCS=OFF -DBUILD_SHARED_LIBS=ON
     for part in Core Tools; do
         rm -f "$prefix/lib/libOpenMesh$part.a"
-        find "$prefix/work/openmesh/build/src/OpenMesh/$part" -name '*.o' | LC_ALL=C sort |
+        find "$prefix/build/openmesh/build/src/OpenMesh/$part" -name '*.o' | LC_ALL=C sort |
             xargs "${AR:-ar}" rcsD "$prefix/lib/libOpenMesh$part.a"
     done
-    touch "$prefix/work/openmesh.built"
+    touch "$prefix/build/openmesh.built"
 fi
 compile() { # compile SOURCE OBJECT [OPTION...]
     from=$1 to=$2 && shift 2
@@ -81,9 +81,9 @@ compile() { # compile SOURCE OBJECT [OPTION...]
 }
 if fetch tinygltf; then
     # facetmill decodes images with other libraries, so tinygltf needs none.
-    compile "$source/tiny_gltf.cc" "$prefix/work/tinygltf/tiny_gltf.o" -DTINYGLTF_NO_STB_IMAGE -DTINYGLTF_NO_STB_IMAGE_WRITE
-    rm -f "$prefix/lib/libtinygltf.a" && "${AR:-ar}" rcsD "$prefix/lib/libtinygltf.a" "$prefix/work/tinygltf/tiny_gltf.o"
-    touch "$prefix/work/tinygltf.built"
+    compile "$source/tiny_gltf.cc" "$prefix/build/tinygltf/tiny_gltf.o" -DTINYGLTF_NO_STB_IMAGE -DTINYGLTF_NO_STB_IMAGE_WRITE
+    rm -f "$prefix/lib/libtinygltf.a" && "${AR:-ar}" rcsD "$prefix/lib/libtinygltf.a" "$prefix/build/tinygltf/tiny_gltf.o"
+    touch "$prefix/build/tinygltf.built"
 fi
 
 # The others, as installed; headers count, too, because templates are compiled into the program.
