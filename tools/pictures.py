@@ -47,6 +47,7 @@ FIGURES = {
     "thickened": (900, 300, [["thickened.glb"]], ["--edges", "no"]),
 }
 SECTIONS = {"cut-sponge": "sponge-section.svg"}  # drawings, as they are
+PAGE = "report-page.png"  # the page of quickstart's report in Chromium, for the README
 
 
 def decoded(path):
@@ -122,6 +123,15 @@ def figure(mill, name, folder):
             shutil.copy(scratch / SECTIONS[name], folder)
 
 
+def page(mill, browser, folder):
+    with tempfile.TemporaryDirectory() as scratch:
+        subprocess.run([mill, "run", "-q", "quickstart", "-D", f"input={SOURCE}/examples/data/nefertiti.ply", "-D", "unit=mm",
+                        "-D", "up=y", "--output-dir", scratch], check=True)
+        subprocess.run([browser, "--headless=new", "--no-sandbox", "--hide-scrollbars", "--window-size=1000,1680", "--force-device-scale-factor=0.65",
+                        "--virtual-time-budget=8000", f"--screenshot={folder / PAGE}", f"file://{scratch}/nefertiti.html"],
+                       check=True, capture_output=True, timeout=120)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=SOURCE / "docs/figures")
@@ -133,6 +143,11 @@ def main():
         sys.exit(f"FIGURES and pipelines/figures differ: {', '.join(sorted(known ^ set(FIGURES)))}")
     for name in [options.only] if options.only else FIGURES:
         figure(options.mill.resolve(), name, options.folder.resolve())
+    browser = shutil.which("chromium")
+    if not options.only and browser:
+        page(options.mill.resolve(), browser, options.folder.resolve())
+    elif not options.only:
+        print(f"{PAGE} stays as it is: chromium is not installed (tools/deps.sh --browser)", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -88,7 +88,7 @@ class Guides(Case):
         sys.path.insert(0, str(SOURCE / "tools"))
         import pictures
         made = {f"docs/figures/{name}.png" for name in pictures.FIGURES}
-        made |= {f"docs/figures/{name}" for name in pictures.SECTIONS.values()}
+        made |= {f"docs/figures/{name}" for name in [*pictures.SECTIONS.values(), pictures.PAGE]}
         shown = set()
         for page in [*SOURCE.glob("*.md"), *(SOURCE / "docs").rglob("*.md")]:
             for target in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", page.read_text()):
