@@ -4,7 +4,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/facetmillTargets.cmake")
 
 #[[
 facetmill_add_assets(TARGET
-                     PIPELINE pipeline            a YAML file, or the name of a ready pipeline
+                     PIPELINE pipeline            a YAML file, or the name of a built-in pipeline
                      INPUTS file...               the pipeline is run for each of them
                      [INPUT_PARAM name]           the param that takes the input (default: input)
                      [PARAMS name=value...]       other params, the same for all inputs; paths absolute

@@ -6,7 +6,7 @@
 namespace facetmill::cli {
 
 void add_asset_options(Arguments& arguments, AssetOptions& options) {
-    arguments.add("PIPELINE", &options.pipeline, "A YAML file, - or a ready pipeline.").required();
+    arguments.add("PIPELINE", &options.pipeline, "A YAML file, - or a built-in pipeline.").required();
     arguments.add("--input", &options.sources.patterns,
                   "A file, or a pattern in quotes. ** matches any number of folders.");
     arguments.add("--inputs-from", &options.sources.lists,

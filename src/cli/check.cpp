@@ -9,7 +9,7 @@ namespace {
 constexpr const char* check_examples =
     R"(The command reports all errors of all files. Params without a value count as valid; use -D to give values. If
 inputs exist, their headers are read (format, unit). A pattern must match a file. Exit codes: 2 if a pipeline has
-an error, 6 if only an input is malformed, 3 if only a pattern matches nothing.
+an error, otherwise 6 if an input is malformed, otherwise 3 if a pattern matches nothing.
 
 Examples
   facetmill check pipelines/*.yaml
@@ -38,7 +38,7 @@ Command check_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
-                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();
+                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or built-in pipelines.").required();
                 add_value_options(arguments, *options);
                 add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);

@@ -59,7 +59,7 @@ Words values_of_command(const std::string& command, const Argument& argument) {
     Words words = plain(argument.choices);
     if (argument.names == "PIPELINE") {
         for (const auto& ready : docs::ready_pipelines())
-            words.push_back({std::string(ready.name), "a ready pipeline"});
+            words.push_back({std::string(ready.name), "a built-in pipeline"});
         words.push_back({files_row, ""});
     }
     if (command == "stages") words = stage_words();

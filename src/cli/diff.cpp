@@ -23,16 +23,17 @@ file has no faces, distances are measured from and to its points.
 
 Limits are in units of A (0.2, 2mm) or in percent of A's diagonal (0.5%). The default, 0.0001%, allows for the
 rounding of float32 coordinates. If the units and up axes of both files are known (from the files, --unit or
---up), B is first converted to A's. Attributes are compared element by element, in the order of the files.
+--up), B is first converted to the unit and axis of A. Attributes are compared element by element, in the order
+of the files.
 
 Exit codes: 0 if the files agree, 1 if they differ in a section that is not ignored, 3 or 6 if a file cannot be
 read.
 
-For two folders, mesh files are compared by their relative paths. Remaining files are compared without suffixes
-(a.ply and a.glb), if each folder has only one such file. A file that exists in only one folder counts as a
-difference. The largest differences are listed first. --html F.html writes an index, with a page for each pair in
-the folder F next to it. Contents that cannot be compared (lines, attributes of different sizes) are listed, and
-set "complete" to false in JSON.
+For two folders, mesh files with the same relative path are compared. The remaining files are compared if they
+differ only in their suffix (a.ply and a.glb), and each folder has only one such file. A file that exists in
+only one folder counts as a difference. The largest differences are listed first. --html F.html writes an index,
+with a page for each pair in the folder F next to it. Contents that cannot be compared (lines, attributes of
+different sizes) are listed, and set "complete" to false in JSON.
 
 Examples
   facetmill diff scan.ply scan.glb
@@ -165,8 +166,8 @@ Command diff_command() {
             arguments.add("B", &options->b, "The second mesh file or folder.").required();
             arguments.add("--max", &options->maximum, "The largest allowed distance (0.2, 2mm, 0.5%).");
             arguments.add("--rms", &options->rms,
-                          "The largest allowed root mean square distance over the area.");
-            arguments.add("--mean", &options->mean, "The largest allowed mean distance over the area.");
+                          "The largest allowed root mean square distance, weighted by area.");
+            arguments.add("--mean", &options->mean, "The largest allowed mean distance, weighted by area.");
             arguments
                 .add("--values", &settings.attribute_limit,
                      "The largest allowed difference of attribute values. Default: 1e-6.")
@@ -180,7 +181,7 @@ Command diff_command() {
             arguments
                 .add("--samples", &options->samples,
                      "The number of sample points in each direction. All of them are measured.\nDefault: "
-                     "100000, and rms and mean use only as many of these as they need.")
+                     "100000, and then rms and mean use only the samples that they need.")
                 .between(0, 1000000000);
             arguments.add("--seed", &settings.deviation.seed, "The seed of the sample positions. Default: 1.")
                 .not_negative();

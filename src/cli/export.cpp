@@ -217,7 +217,7 @@ Command export_command() {
                 add_partition_option(arguments, options->common);
                 arguments
                     .add("--cell-jobs", &options->cell_jobs,
-                         "The number of jobs that simplify cells. Default: one for 2 million faces, 2 to 64.")
+                         "The number of jobs that simplify. Default: one per 2 million faces, from 2 to 64.")
                     .between(1, 100000);
                 add_sandbox_option(arguments, options->common.sandbox);
                 add_warning_options(arguments, options->common);

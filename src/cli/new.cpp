@@ -57,7 +57,7 @@ std::string text_of(const NewOptions& options, const CommandLine& line) {
     if (const auto* ready = docs::ready_pipeline(options.from)) return std::string(ready->text);
     const auto names = docs::ready_names();
     throw Error(ErrorKind::usage, "E-ARGUMENT",
-                fmt::format("ready pipeline '{}' does not exist", options.from),
+                fmt::format("built-in pipeline '{}' does not exist", options.from),
                 did_you_mean(options.from, names, fmt::format("{}", fmt::join(names, ", "))),
                 line.value(options.from));
 }
@@ -87,7 +87,7 @@ Command new_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<NewOptions>();
                 arguments.add("FILE", &options->file, "The file to write. - prints it.").required();
-                arguments.add("--from", &options->from, "The ready pipeline to start from.")
+                arguments.add("--from", &options->from, "The built-in pipeline to start from.")
                     .suggests(docs::ready_names);
                 return [=, &console](const Invocation& invocation) {
                     return write_new(*options, invocation.line, console);

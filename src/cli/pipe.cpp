@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* pipe_examples =
     R"(Stages and options are the same as in a pipeline file. Give options of facetmill pipe first, then stages separated
-by ! or +. A stage has its name, a bare value for its primary option, and --key value, --key=value or --flag for
-other options.
+by ! or +. Write the name of a stage, a bare value for its primary option, and --key value, --key=value or --flag
+for other options.
 
 Join nested keys with dots (--plane.normal=0,0,1, --ensure.closed, --when.closed). Use --name and --only as in a
 file. Write lists with commas, or repeat the option. Paths may contain commas, so always repeat the option for

@@ -178,8 +178,8 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     add_sync_option(arguments, options);
     add_cell_options(arguments, options);
     arguments.add("--cells-job", &options.cells_job,
-                  "Runs one of several jobs that share --keep-cells: cells, or 3/16 for the third of\n16 "
-                  "that simplify. It has no outputs. facetmill export writes such jobs.");
+                  "Runs one of several jobs that share --keep-cells: cells makes the cells, and 3/16\nis the "
+                  "third of 16 jobs that simplify. It has no outputs. facetmill export writes such jobs.");
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
                   "Prints for each stage why it ran again, or that its result is from the cache.");
@@ -268,8 +268,8 @@ namespace {
     const std::string near = nearest(pipeline, names);
     throw Error(ErrorKind::missing, "E-FILE", fmt::format("pipeline '{}' does not exist", pipeline),
                 near.empty()
-                    ? fmt::format("give a YAML file, or a ready pipeline: {}", fmt::join(names, ", "))
-                    : fmt::format("did you mean the ready pipeline '{}'?", near));
+                    ? fmt::format("give a YAML file, or a built-in pipeline: {}", fmt::join(names, ", "))
+                    : fmt::format("did you mean the built-in pipeline '{}'?", near));
 }
 
 } // namespace

@@ -69,14 +69,14 @@ Command plan_command() {
                 auto options = std::make_shared<PlanOptions>();
                 arguments
                     .add("PIPELINE", &options->pipelines,
-                         "A YAML file, - or a ready pipeline, and possibly a mesh.")
+                         "A YAML file, - or a built-in pipeline, and possibly a mesh.")
                     .required();
                 arguments.add("--inputs", &options->inputs,
                               "Prints only the files that the pipeline reads, one per line.");
                 arguments.add(
                     "--outputs", &options->outputs,
-                    "Prints only the files that the pipeline writes, one per line. With --inputs,\nthey "
-                    "follow an empty line.");
+                    "Prints only the files that the pipeline writes, one per line. With --inputs, an\n"
+                    "empty line separates the two lists.");
                 arguments.add("--json", &options->json, "Prints JSON.");
                 arguments.add("-o,--output-dir", &options->common.output_dir,
                               "The folder for relative paths of outputs. Default: the working directory.");

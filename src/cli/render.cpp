@@ -183,11 +183,13 @@ Command render_command() {
                 .followed_by("FILE.png");
             arguments
                 .add("--unit", &options->unit,
-                     "The unit of a file that states none; mm,m: of each of two.\nAlso the unit of a stored "
+                     "The unit of files without a unit. mm,m gives different units for two files.\nAlso the "
+                     "unit of a stored "
                      "attribute, for the legend.")
                 .followed_by("UNIT");
             arguments
-                .add("--up", &options->ups, "The up axis of a file that states none; z,y: of each of two.")
+                .add("--up", &options->ups,
+                     "The up axis of files without an axis. z,y gives different axes for two files.")
                 .separated_by_commas_alone()
                 .one_of({"y", "z"});
             add_threads_option(arguments, options->run.threads, "The number of threads. Default: all cores.");

@@ -15,8 +15,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* run_examples =
-    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a ready pipeline (quickstart, scan-to-web, web,
-lod-chain, repair). A mesh file after it is the value of its param input.
+    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a built-in pipeline (quickstart,
+scan-to-web, web, lod-chain, repair). A mesh file after it is the value of its param input.
 
 Examples
   facetmill run scan.yaml
@@ -174,7 +174,9 @@ Command run_command() {
     return {"run", "Runs pipelines.", run_examples, {}, [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
-                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines; then a mesh.")
+                arguments
+                    .add("PIPELINE", pipelines.get(),
+                         "YAML files, - or built-in pipelines, and possibly a mesh.")
                     .required();
                 auto watch = std::make_shared<bool>(false);
                 arguments.add("--watch", watch.get(),

@@ -54,16 +54,16 @@ void declare_deviation(Declare<DeviationLimits>& d) {
              "The limit of the largest distance from each surface to the other.")
         .at_least(0)
         .primary();
-    d.option("rms", &DeviationLimits::rms, "The limit of the root mean square distance over the area.")
+    d.option("rms", &DeviationLimits::rms, "The limit of the root mean square distance, weighted by area.")
         .at_least(0);
-    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance over the area.").at_least(0);
+    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance, weighted by area.").at_least(0);
     d.choice<From>(
         "from", &DeviationLimits::from,
         {{"stage", From::stage, "the input of the step"}, {"load", From::load, "the scene as last loaded"}},
         "The scene to compare with. The stage ensure always uses load.");
     d.option("samples", &DeviationLimits::samples,
              "The number of sample points in each direction. All of them are measured, and all vertices as "
-             "well. Default: 100000, and rms and mean use only as many of these as they need.")
+             "well. Default: 100000, and then rms and mean use only the samples that they need.")
         .between(0, 1e9);
     d.option("seed", &DeviationLimits::seed, "The seed of the sample positions.").at_least(0);
     d.option("certify", &DeviationLimits::certify,

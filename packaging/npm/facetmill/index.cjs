@@ -83,7 +83,7 @@ function definitions(params) {
     ['-D', `${name}=${typeof value === 'object' || typeof value === 'boolean' ? JSON.stringify(value) : value}`]);
 }
 
-/** Runs a pipeline: a YAML file, the name of a ready pipeline, or an object with the keys of such a file. */
+/** Runs a pipeline: a YAML file, the name of a built-in pipeline, or an object with the keys of such a file. */
 function run(pipeline, options = {}) {
   const args = ['run', ...(options.outputDir ? ['--output-dir', options.outputDir] : []), ...definitions(options.params)];
   return typeof pipeline === 'string' ? reported([...args, pipeline], options)

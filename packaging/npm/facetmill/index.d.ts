@@ -33,7 +33,7 @@ export class FacetmillError extends Error {
 
 /** The path of the program: $FACETMILL, or that of the package for this system. */
 export function executable(): string;
-/** Runs a pipeline: a YAML file, the name of a ready pipeline, or an object with the keys of such a file. */
+/** Runs a pipeline: a YAML file, the name of a built-in pipeline, or an object with the keys of such a file. */
 export function run(pipeline: string | object, options?: RunOptions): Promise<Report>;
 /** Runs stages, as after `facetmill pipe`. A list is taken word by word, which paths with blanks need. */
 export function pipe(stages: string | string[], options?: Options): Promise<Report>;

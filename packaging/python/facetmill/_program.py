@@ -143,7 +143,7 @@ def _run(arguments: List[str], check: bool, on_progress: Optional[OnProgress], t
 
 def run(pipeline: Pipeline, *, check: bool = True, output_dir: Optional[PathLike] = None, options: Sequence[str] = (),
         on_progress: Optional[OnProgress] = None, cwd: Optional[PathLike] = None, **params: Any) -> reports.Report:
-    """Runs a pipeline: a YAML file, the name of a ready pipeline, or a dict with the keys of such a file.
+    """Runs a pipeline: a YAML file, the name of a built-in pipeline, or a dict with the keys of such a file.
 
     params are those of the pipeline (`input='scan.ply'`). `options` are further options of `facetmill run`. Raises
     Error if the run does not pass; with check=False a run whose checks fail returns its report.

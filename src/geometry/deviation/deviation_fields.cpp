@@ -78,7 +78,7 @@ void declare_deviation_fields(DeclareFields<DeviationResult>& d) {
     d.field("diagonal", &DeviationResult::diagonal,
             "The diagonal of the bounding box of the reference surface.")
         .unit("scene units")
-        .null_when("the diagonal is out of the range of numbers");
+        .null_when("the diagonal is outside the range of 64-bit floats");
     const auto self = [](const DeviationResult& r) -> const DeviationResult& { return r; };
     d.object("percent", self, "The deviation in percent of the diagonal.", declare_percent);
     d.field("seed", &DeviationResult::seed, "The seed of the sample positions.");

@@ -10,7 +10,7 @@ void declare_face_kinds(DeclareFields<FaceKinds>& d) {
             "Faces of this kind.");
     }
     d.field("non_planar", &FaceKinds::non_planar,
-            "Faces that are farther from their plane than the rounding of float32 explains.");
+            "Faces that are farther from their plane than float32 rounding can explain.");
     d.field("deviation", &FaceKinds::deviation,
             "The largest distance of a corner from the plane of its face.")
         .unit("scene units");

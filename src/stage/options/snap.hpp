@@ -17,8 +17,8 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
          "snap", snap,
          {{"auto", Snap::automatic,
            "32-bit float positions count as on " + what +
-               " if their own rounding explains the distance, because 0.1 in an STL differs slightly from "
-               "0.1 in a pipeline. Other positions count within four roundings of a double"},
+               " if their rounding error explains the distance, because 0.1 in an STL differs slightly from "
+               "0.1 in a pipeline. 64-bit positions count within four steps of a 64-bit float"},
           {"0", Snap::none, "only exact positions count"}},
          "The positions that count as on " + what + ".")
         .option()

@@ -17,8 +17,8 @@ If the part covers a region twice, so does its cap.
 If the kept side touches a plane only at a vertex or an edge, this becomes a corner or an edge of the
 cap.
 A manifold part is separated at these places, unless it intersects itself in the plane.
-Points that a clip placed on a plane still count as on that plane in later clips, until a stage
-moves them.
+If one clip places a point on a plane, later clips treat it as on that plane, until a stage moves
+it.
 In a point cloud, points on the kept side stay, and points on a plane count as in front.
 
 Planes are in world space, so node transforms of parts are respected.

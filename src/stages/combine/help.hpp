@@ -55,10 +55,7 @@ Their group is 0 unless they were caps, because numbers from two parts could cla
 Parts are combined in the space of the remaining part, which keeps its node.
 Skins are removed (W-SKIN).
 
-After Q.
-Zhou, E.
-Grinspun, D.
-Zorin and A.
-Jacobson, "Mesh arrangements for solid geometry" (2016).)";
+After Q. Zhou, E. Grinspun, D. Zorin and A. Jacobson, "Mesh arrangements for solid geometry"
+(2016).)";
 
 } // namespace facetmill::help::combine

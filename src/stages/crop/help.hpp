@@ -21,7 +21,7 @@ exactly.
 The face attribute cut_id numbers the walls by segment, and group numbers them by ring.
 Without cap, closed parts become open.
 
-Positions with 32-bit floats count as on the outline if their own rounding explains the distance.
+32-bit float positions count as on the outline if their rounding error explains the distance.
 This matters because 0.1 in an STL file differs slightly from 0.1 in a footprint.
 New vertices and wedges are interpolated, and new faces copy the attributes of their original face.
 When whole faces are kept or removed, no attributes are interpolated, and corners on the outline

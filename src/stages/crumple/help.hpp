@@ -26,7 +26,8 @@ Instances of a mesh get different noise, so each gets its own mesh.
 
 There are three exceptions.
 With direction: normal, parts may separate at a shared position if their normals differ.
-The option frequency is relative to the scene, so two files match only if their diagonals are equal.
+The option frequency counts bumps along the scene's diagonal, so two files get matching noise only
+if their diagonals are equal.
 Two files far from the origin may differ if only one of them is rounded to 40 bits.
 
 With self_intersections: avoid, each position moves by a share of its displacement: 1, 1/2 ...

@@ -9,7 +9,8 @@ inline constexpr const char* details =
     R"(The content of a file determines its format.
 If the content is not conclusive, the suffix decides.
 Files that end in .gz or .zst are decompressed.
-Each mesh, solid or object becomes a part with the name from the file, or else the name of the file.
+Each mesh, solid or object becomes a part. Its name is the name inside the file, or else the name of
+the file.
 Names are made unique.
 
 The scene takes its unit and up axis from the first file that has them.

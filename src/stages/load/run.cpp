@@ -40,11 +40,11 @@ void declare(Declare<LoadOptions>& d) {
         .primary()
         .required();
     d.choice<Unit>("unit", &LoadOptions::unit,
-                   unit_choices("auto", "the unit in the file or of its format, otherwise unknown"),
+                   unit_choices("auto", "the unit that the file or its format states, otherwise unknown"),
                    "The unit of the numbers in the file.")
         .also_called(property_named("unit")->also_called);
     d.choice<UpAxis>("up", &LoadOptions::up,
-                     up_choices("auto", "the axis in the file or of its format, otherwise unknown"),
+                     up_choices("auto", "the axis that the file or its format states, otherwise unknown"),
                      "The up axis of the file.")
         .also_called(property_named("up")->also_called);
     d.option("format", &LoadOptions::format,

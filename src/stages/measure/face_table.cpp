@@ -67,7 +67,7 @@ const std::vector<Columns>& columns() {
          "triangle, quad, convex, concave, complex, self_intersecting or degenerate",
          [](const Row& r, Cells& c) { c.push_back(polygon::to_string(r.polygon.kind)); }},
         {{"planar"},
-         "false if a corner is farther from the plane than the rounding of float32 explains",
+         "false if a corner is farther from the plane than float32 rounding can explain",
          [](const Row& r, Cells& c) { c.push_back(r.polygon.planar ? "true" : "false"); }},
         {{"signed_area"},
          "positive if anticlockwise, seen from the positive side of the axis nearest to the normal",

@@ -28,7 +28,8 @@ region.
 Each point counts once, as in triangulate and section.
 Its signed area is negative if the clockwise part is larger.
 A non-planar polygon that intersects itself has the area of the cross product sum, but no moments.
-In the volume of a solid, each region counts as often as the face winds around it.
+For the volume of a solid, each region of such a polygon counts as often as the polygon winds around
+it.
 
 The result solid describes the inside of a closed surface, filled with the density.
 It contains volume, mass, centroid, inertia about the centroid, ascending principal moments with

@@ -16,7 +16,8 @@ namespace facetmill::measure_stage {
 namespace {
 
 constexpr double degrees = 180 / pi;
-constexpr const char* unknown = "there is nothing to measure, or the result is out of the range of numbers";
+constexpr const char* unknown =
+    "there is nothing to measure, or the result is outside the range of 64-bit floats";
 
 std::optional<Vec3> known_point(bool known, const Vec3& p) {
     return known && is_finite(p) ? std::optional(p) : std::nullopt;
@@ -52,11 +53,11 @@ void declare_principal(DeclareFields<PrincipalInertia>& d) {
     d.field("moments", &P::moments, "The principal moments of inertia, in ascending order.");
     d.field("axes", &P::axes, "The directions of the principal axes, a right-handed frame.");
     d.field("radii_of_gyration", &P::radii,
-            "The radii of gyration about the principal axes. Null below the range of numbers.")
+            "The radii of gyration about the principal axes. Null when too small for a 64-bit float.")
         .unit("scene units");
 }
 
-constexpr const char* out_of_range = "the moments are out of the range of numbers";
+constexpr const char* out_of_range = "the moments are outside the range of 64-bit floats";
 
 void declare_shell(DeclareFields<ShellMass>& d) {
     d.field("area", &ShellMass::area, "The area of the surface.").unit("square scene units");
@@ -113,7 +114,7 @@ void declare_faces(DeclareFields<FaceResult>& d) {
     d.counts("kinds", kinds_of, names, "The number of faces of each kind that occurs.");
     d.field(
         "non_planar", [](const FaceResult& f) { return f.kinds.non_planar; },
-        "Faces with a corner farther from their plane than the rounding of float32 explains.");
+        "Faces with a corner farther from their plane than float32 rounding can explain.");
     d.field(
          "farthest_from_plane", [](const FaceResult& f) { return f.kinds.deviation; },
          "The largest distance of a corner from the plane of its face.")

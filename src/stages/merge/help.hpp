@@ -16,7 +16,7 @@ Unknown attributes, such as quality, become nan.
 In glTF, the parts that lacked an attribute are written without it.
 The face attribute `group` numbers the original parts, so `separate: group` can undo the merge.
 Nodes and skins are removed.
-Parts that merging would show differently stay unchanged (W-MERGE-STAYS).
+Parts that would look different after merging stay unchanged (W-MERGE-STAYS).
 These are animated and instanced parts, levels of detail, and parts that viewers do not show.
 Solids that only touch form one closed part.
 With weld they also share vertices.)";

@@ -38,8 +38,8 @@ Later stages see this mesh once, so use instance last.
 The reverse of instance is `load: {instances: expand}`.
 
 Some parts stay separate and unchanged.
-They are skinned, animated or joints, they are outside the scene that viewers show, or they have
-morph targets, a camera, extras or extensions.
+These parts are skinned, animated or joints, are outside the scene that viewers show, or have morph
+targets, a camera, extras or extensions.
 Extras and extensions of their mesh or parent nodes count as well.
 Parts that `only` excludes also stay unchanged.
 The option join leaves out parts that share their mesh with others, unless join_shared is on.

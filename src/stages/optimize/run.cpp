@@ -467,13 +467,13 @@ void declare_erased(DeclareFields<io::TidyCounts>& d) {
     d.field("textures", &io::TidyCounts::textures, "Duplicate or unused items.");
     d.field("samplers", &io::TidyCounts::samplers, "Duplicate or unused items.");
     d.field("images", &io::TidyCounts::images, "Duplicate or unused items.");
-    d.field("accessors", &io::TidyCounts::accessors, "Accessors of removed items, or unused.");
+    d.field("accessors", &io::TidyCounts::accessors, "Accessors of removed items, and unused accessors.");
     d.field("tracks", &io::TidyCounts::tracks, "Animation tracks that do not move a node.");
 }
 
 void declare_report(DeclareFields<OptimizeReport>& d) {
     d.field("draw_calls_before", &OptimizeReport::draw_calls_before,
-            "Primitives of all parts in the input. Each needs a draw call.");
+            "Primitives of all parts in the input. Each primitive needs a draw call.");
     d.field("draw_calls_after", &OptimizeReport::draw_calls_after, "Primitives of all parts in the result.");
     d.field("parts_before", &OptimizeReport::parts_before, "Parts in the input.");
     d.field("parts_after", &OptimizeReport::parts_after, "Parts in the result.");

@@ -14,7 +14,7 @@ around it.
 A component inside another is a cavity and faces inward.
 A component inside a cavity faces outward again.
 Components that touch or intersect are not cavities of each other.
-These decisions are exact and use rays along an axis that never hit an edge.
+These decisions are exact. They use rays along an axis, and these rays never hit an edge.
 
 For an open component, the outside is the side from which more rays escape.
 If both sides are equal, as for a flat sheet, the component is only made consistent (W-ORIENT-OPEN).

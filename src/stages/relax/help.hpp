@@ -13,7 +13,7 @@ All vertices move simultaneously, so neither their order nor the number of threa
 The methods laplacian, cotangent and implicit shrink a closed surface a little in every iteration.
 The methods taubin and hc nearly preserve its volume.
 The report gives area and volume before and after.
-With until and no method, the method is hc with alpha 0.1, which converges near the original
+If you give until but no method, the method is hc with alpha 0.1, which converges near the original
 surface.
 A method that shrinks the surface stops before a third of the area is lost (W-RELAX-STOPPED).
 
@@ -27,7 +27,7 @@ Other sharp edges become round unless you give feature_angle.
 Faces, wedges and topology do not change.
 Normals are recomputed, and tangents are made perpendicular to them.
 Position morph targets are relaxed together with the surface.
-Each is relaxed as the surface that it represents.
+Each target is relaxed as the surface that it represents.
 All other attributes are kept.
 The report gives the number of moved and fixed vertices, and the largest displacement in world
 units.

@@ -16,7 +16,8 @@ WebP) with wrap, filter and KHR_texture_transform.
 Alpha masks and blending, vertex colours and KHR_materials_unlit are supported.
 Colours are mixed in linear light.
 Metalness and roughness are ignored because there is no environment map.
-If a texture is missing, broken or larger than 2^26 pixels, its plain colour is drawn (W-TEXTURE).
+If a texture is missing, broken or larger than 2^26 pixels, the plain colour of the material is
+drawn (W-TEXTURE).
 
 Skinned parts are drawn in the pose that their joint nodes define, and morphed parts with their
 default weights.
@@ -26,7 +27,7 @@ Other stages use the bind pose.
 The front faces +z if y points up (glTF), and -y if z points up.
 If the up axis is unknown, the scene is placed on its flat base, if it has one.
 Otherwise, z is up if the scene is longest along z, and y is up if not.
-An open surface is then seen from the side that its faces face.
+The picture of an open surface then shows the front of its faces.
 
 An attribute that no part has is measured in bind pose and world space.
 The legend shows the unit of the scene.

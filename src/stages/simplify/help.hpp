@@ -39,7 +39,8 @@ No collapse of the quadric methods may have a larger error (largest_error, see b
 max_quadric_error.
 The default is 1 % of the diagonal of the part's bounding box in its local space.
 Parts that are simplified together use their common bounding box.
-W-SIMPLIFY-LIMIT warns about this, unless borders, seams or non-manifold regions block more edges.
+W-SIMPLIFY-LIMIT warns if this limit stops the simplification, unless borders, seams or non-manifold
+regions block more edges.
 Within this limit, a scan can be reduced to a few hundred triangles, and a box in a collection stays
 a box.
 
@@ -78,13 +79,14 @@ weight.
 A moved vertex takes its attributes from the nearest point of the original faces that it replaces,
 so textures do not slide.
 Faces keep their attributes.
-Wedges that differ only in their normals are merged below the feature angle.
+Wedges that differ only in their normals are merged if their faces meet at less than the feature
+angle.
 A flat-shaded mesh gets the normals of its new faces.
 
 The deviation is measured in both directions at 100,000 samples and at all vertices, with seed 1.
-The root mean square and the mean use as many samples as a standard error of 0.5 % needs.
-If eight or more of these on a triangle stay below half of the maximum, its other samples are
-skipped for the maximum.
+The root mean square and the mean use enough samples for a standard error of 0.5 %.
+If at least eight of these samples on a triangle stay below half of the maximum, its other samples
+are not used for the maximum.
 Several parts share the samples: half by area, half by number of triangles.
 The report gives the number of samples of each part.
 
@@ -92,7 +94,7 @@ The option max_error limits this deviation.
 The report gives it in scene units and as a percentage of the part's diagonal.
 Points on the surface are tracked, and collapses that exceed the limit in the end are undone one by
 one.
-This takes many times as long as a ratio.
+A limit by max_error takes many times as long as a ratio.
 The method cluster meets the limit by the size of its cells.
 
 The option lods makes a chain of levels of detail, each simplified further from the previous level.
@@ -105,7 +107,7 @@ The method constrained preserves every vertex on boundaries, seams and borders.
 If the mesh needs more memory than facetmill run --memory 2G allows, load and simplify process cells
 on disk.
 Each cell is simplified, but its shared vertices do not move.
-Groups of two to four cells then follow, up to the whole mesh.
+Then groups of two to four cells are joined and simplified, until one group is the whole mesh.
 No borders remain, and a closed surface stays closed.
 This needs ratio or faces and a quadric method, and does not measure the deviation.
 E-CELLS names options that need the mesh in memory.

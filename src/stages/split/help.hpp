@@ -21,16 +21,16 @@ Seams are preserved: each edge and pair of wedges gets one new wedge.
 Some methods cut to the centre of a face, which is the mean of its corners.
 In a concave face, they use a point that sees the whole face, if one exists.
 New faces may overlap in concave faces without such a point.
-They may also overlap in concave faces cut by halve, varignon and grid (W-SPLIT-FOLDED gives the
-count).
+New faces may also overlap in concave faces cut by halve, varignon and grid (W-SPLIT-FOLDED gives
+the count).
 The methods fan, halve and diagonal leave triangles unchanged (W-SPLIT-NOTHING, if a part has only
 triangles).
 
 If a method cuts only some edges of a face, the neighbouring faces are cut as well.
 The method bisect also cuts every triangle with a cut edge at its longest edge (Rivara's rule), into
 two, three or four.
-The methods notch and halve cut a neighbouring triangle to the opposite corner, into a triangle and
-a quad, or into four.
+The methods notch and halve cut a neighbouring triangle into two triangles (one cut edge), a
+triangle and a quad (two), or four triangles (three).
 They cut a neighbouring quad into up to four faces.
 Between passes, notch cuts quads along a diagonal.
 Methods for triangles or quads refuse larger faces and report their number (E-POLYGON).

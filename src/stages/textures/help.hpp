@@ -20,7 +20,7 @@ The pixels stay the same.
 PNG loses its metadata, JPEG keeps it.
 
 Other images also stay unchanged.
-An image stays unchanged if the other format would not be smaller (except with png).
+An image stays unchanged if it would not become smaller in the new format (except with png).
 It stays unchanged if it is broken, larger than 2^26 pixels, or of another kind (KTX2, DDS).
 It stays unchanged if it is read pixel by pixel (both filters NEAREST, as for a palette).
 It also stays unchanged if it contains feature ids, metadata or light.
@@ -41,7 +41,7 @@ Files refer to KTX2 images through KHR_texture_basisu.
 Files refer to WebP images through EXT_texture_webp.
 The extension becomes required, because there is no second image for readers without it.
 An image that is already the fallback for such readers is scaled, but does not become WebP.
-With only, images that unselected parts also use stay unchanged.
+With the common key `only`, images that unselected parts also use stay unchanged.
 
 Source: K. Turkowski, 'Filters for Common Resampling Tasks' (1990).)";
 

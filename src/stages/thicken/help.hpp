@@ -10,7 +10,7 @@ inline constexpr const char* details =
     R"(The stage places a reversed copy of the surface behind it, at the given thickness.
 Walls along the boundary edges close the solid.
 A closed surface becomes a hollow solid.
-A closed component becomes solid if no ball fits into it whose radius is the thickness.
+A closed component becomes solid if no ball with the thickness as its radius fits into it.
 Each vertex moves so that the planes of its faces move by the thickness, as closely as one position
 allows.
 Flat walls therefore keep their thickness up to their corners.
@@ -23,8 +23,8 @@ Flat faces are triangulated again if the offset would invert their triangles in 
 A ring or a plate with holes therefore keeps its shape.
 The stage checks the result for self-intersections, unless the thickness is larger than the part.
 Faces that only touch are not self-intersections.
-It also looks for other faces that the offset inverted or collapsed, and for walls inside other walls
-(W-THICKEN).
+The stage also looks for other faces that the offset inverted or collapsed, and for walls inside
+other walls (W-THICKEN).
 The report gives these counts and the wall thickness, measured from the front vertices to the back
 faces.
 Both sides keep their attributes, and the back gets reversed normals.
@@ -34,7 +34,7 @@ With self_intersections: resolve, boolean operations rebuild a solid that folds 
 itself.
 A closed surface gives the volume between itself and its moved copy.
 If there is too little room for the thickness, the wall becomes thinner or fills the space.
-Cavities and pieces smaller than a cube of the thickness are removed.
+Cavities and pieces smaller than a cube with the thickness as its side are removed.
 An open surface becomes the solid enclosed by its two sides and its walls.
 
 Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and replaces

@@ -20,8 +20,8 @@ that the outline winds around.
 New vertices are added where edges cross, also to the neighbouring faces.
 If the outline winds around points several times, they are covered once if the face has no
 neighbours.
-Otherwise they are covered as many times, because the surface would be open if they were covered
-once (W-FANS).
+If it has neighbours, they are covered as often as the outline winds around them, because the
+surface would otherwise be open (W-FANS).
 Self-intersecting non-planar faces, and faces without area, are cut as fans (W-FANS).
 
 The report counts the input faces by kind: triangle, quad, convex, concave, complex,

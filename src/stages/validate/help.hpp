@@ -16,14 +16,14 @@ free of degenerate faces, and not empty.
 After `write`, the stage reads back and checks each file that holds the current scene, in the units
 and axes of the scene.
 The stage checks the scene itself if a stage changed it after `write`, or if no file holds all parts.
-It also checks the scene instead of tilesets and of meshes in cells.
+For tilesets and for meshes in cells, it also checks the scene and not the file.
 The report names the file of each check.
 The limits bytes, draw_calls and texture_pixels apply to each file written before, also in branches
 and in foreach.
 They need a `write` before them (E-LIMITS).
 
 After a check with a purpose (for) passes, `write` keeps the same scene fit for it.
-It repairs faults from 32-bit floats and reads the file back.
+It repairs faults that rounding to 32-bit floats causes, and reads the file back.
 The run fails (exit 1) if the file does not fit.
 
 All assertions are checked.

@@ -18,7 +18,7 @@ They store the scene's unit and axis in comments, which load reads.
 Formats without nodes store all parts in world space.
 New meshes in glTF get an order of triangles and vertices that is fast to draw (order), or the order
 that Draco chooses.
-The report lists attributes that the format cannot store under attribute_changes.
+Under attribute_changes, the report lists attributes that the format cannot store.
 
 An OBJ file stores its materials in an .mtl file and the images of textures as separate files.
 It supports colour, emission, normals, opacity, highlights, roughness and metalness.
