@@ -124,7 +124,7 @@ class AssetFinder {
         }
         if (!any)
             missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' lists no files", list),
-                                sources_.place(list), "one name on each line, or each ended by a NUL"});
+                                sources_.place(list), "write one name per line, or end each name with NUL"});
     }
 
     void add_table() {

@@ -56,7 +56,7 @@ Limit size_limit() {
     const auto bytes = read_byte_count(Value::scalar(text), problems);
     if (bytes && *bytes > 0) return {static_cast<std::uint64_t>(*bytes)};
     throw Error(ErrorKind::usage, "E-ARGUMENT",
-                fmt::format("FACETMILL_CACHE_SIZE is an amount, found '{}'", text), "5GB, 500MiB");
+                fmt::format("FACETMILL_CACHE_SIZE must be a size, found '{}'", text), "5GB, 500MiB");
 }
 
 } // namespace facetmill::cache

@@ -204,8 +204,8 @@ void Store::cannot_write(const std::string& why) {
                         "W-CACHE",
                         fmt::format("the cache cannot be written: {}", why),
                         {},
-                        "the run goes on without the cache; FACETMILL_CACHE names another folder, --no-cache "
-                        "uses none"});
+                        "the run continues without the cache; set FACETMILL_CACHE to another folder, or use "
+                        "--no-cache"});
 }
 
 void Store::tell_of_full_disk() {
@@ -217,11 +217,11 @@ void Store::tell_of_full_disk() {
         settings_.tell(
             {Severity::warning,
              "W-CACHE",
-             fmt::format("the disk of the cache '{}' has too little space left: {} of it stay free, "
-                         "and results that do not fit beside that are not stored",
+             fmt::format("the disk of the cache '{}' is nearly full: the cache keeps {} free, and does not "
+                         "store results that need more space",
                          settings_.folder.string(), sized(reserve)),
              {},
-             "make space, name a folder on another disk by FACETMILL_CACHE, or use --no-cache"});
+             "free some space, set FACETMILL_CACHE to a folder on another disk, or use --no-cache"});
 }
 
 namespace {

@@ -27,12 +27,12 @@ constexpr std::size_t map_from = std::size_t{16} << 20;
         throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no file '{}'", name),
                     hint_for_reading(name));
     if (error == EACCES || error == EPERM)
-        throw Error(ErrorKind::missing, "E-PERMISSION", fmt::format("'{}' may not be read", name),
-                    sandbox_hint(name, error));
+        throw Error(ErrorKind::missing, "E-PERMISSION",
+                    fmt::format("'{}' cannot be read: permission denied", name), sandbox_hint(name, error));
     if (error == EISDIR)
         throw Error(ErrorKind::missing, "E-DIRECTORY",
                     fmt::format("'{}' is a directory, expected a file", name),
-                    fmt::format("name a file in it, or (load, batch --input) many by a pattern: '{}'",
+                    fmt::format("give a file in it, or (load, batch --input) a pattern for many files: '{}'",
                                 (std::filesystem::path(name) / "*.ply").string()));
     throw Error(ErrorKind::missing, "E-FILE",
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));

@@ -42,11 +42,10 @@ const Codec& choose(const Input& input, ReadLog& log) {
     const Codec* by_name = codec_for(input.name());
     if (const Codec* surely = sure_codec(input)) {
         if (by_name && by_name != surely)
-            log.warnings.push_back(
-                {Severity::warning, "W-FORMAT",
-                 fmt::format("'{}' is read as {}, because that is its content, whatever its name",
-                             input.name(), surely->name),
-                 file_mark(input.name()), "", false});
+            log.warnings.push_back({Severity::warning, "W-FORMAT",
+                                    fmt::format("'{}' is read as {}, because its content has this format",
+                                                input.name(), surely->name),
+                                    file_mark(input.name()), "", false});
         return *surely;
     }
     if (by_name) return *by_name;
@@ -54,7 +53,7 @@ const Codec& choose(const Input& input, ReadLog& log) {
         if (codec.sniff && codec.sniff(input.bytes()) == 1) return codec;
     if (std::string hint = hint_for_reading(input.name()); !hint.empty())
         throw Error(ErrorKind::usage, "E-FORMAT",
-                    fmt::format("'{}' is in no format that is read", input.name()), std::move(hint));
+                    fmt::format("facetmill cannot read the format of '{}'", input.name()), std::move(hint));
     throw Error(ErrorKind::usage, "E-FORMAT",
                 fmt::format("the format of '{}' is not recognised", input.name()),
                 fmt::format("give 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
@@ -69,10 +68,10 @@ const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
     if (input.bytes().empty())
         throw Error(ErrorKind::malformed, "E-EMPTY",
                     fmt::format("'{}' is empty: it has no bytes", input.name()),
-                    "its export or its download broke off: make the file again");
+                    "export or download the file again");
     const Codec& codec = forced ? *forced : choose(input, log);
     if (!codec.read)
-        throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} is written but not read", codec.name));
+        throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} can be written but not read", codec.name));
     return codec;
 }
 
@@ -118,7 +117,7 @@ void warn_of_size(const Part& part, ReadLog& log) {
     log.warnings.push_back(
         {Severity::warning,
          "W-SIZE",
-         fmt::format("part '{}' has size {}: verdicts are exact, but areas and volumes may be out of the "
+         fmt::format("part '{}' has size {}: verdicts are exact, but areas and volumes may be outside the "
                      "range of numbers (null or 0), and stages may lose precision",
                      part.name, length),
          {},
@@ -281,9 +280,8 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     }
     if (!any && !(codec.can.documents && scene.parts.empty()))
         throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' has no mesh: not one vertex", input.name()),
-                    "export it again, with the meshes themselves: programs leave out what is hidden or not "
-                    "selected");
+                    fmt::format("'{}' has no mesh and no vertex", input.name()),
+                    "export it again with its meshes: programs may leave out hidden or unselected objects");
     return scene;
 }
 

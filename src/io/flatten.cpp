@@ -285,7 +285,7 @@ void warn_of_attributes(Written& written, const std::vector<std::string>& names,
     if (!names.empty())
         written.warnings.push_back({Severity::warning,
                                     "W-ATTRIBUTE",
-                                    fmt::format("{} has no place for attributes: {}", format, some_of(names)),
+                                    fmt::format("{} cannot store attributes: {}", format, some_of(names)),
                                     {},
                                     hint});
 }

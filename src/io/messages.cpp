@@ -100,9 +100,9 @@ const RegisterMessages io_messages{
     {"W-UNITS",
      "A scene without a unit meets a scene, format or option with a unit, and facetmill uses the numbers "
      "unchanged. Or a comment of a file states an unknown unit.",
-     "Give the unit of the file: `load: {unit: mm}`, or `-D unit=mm` of a built-in pipeline."},
+     "Give the unit of the file: `load: {unit: mm}`, or `-D unit=mm` for a built-in pipeline."},
     {"W-UP", "A scene without an up axis gets one, without being rotated.",
-     "Give the up axis: `load: {up: z}`, or `-D up=z` of a built-in pipeline."},
+     "Give the up axis: `load: {up: z}`, or `-D up=z` for a built-in pipeline."},
 };
 
 } // namespace facetmill

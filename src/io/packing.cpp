@@ -127,9 +127,9 @@ Bytes unpack_all(Span bytes, Unpacker& unpacker, std::size_t most, const std::st
         size = out.size() - room.size();
         if (size > limit && usual < most)
             throw Error(ErrorKind::limit, "E-SIZE",
-                        fmt::format("'{}' inflates to more than {} bytes from {}, as no mesh does", name,
-                                    limit, bytes.size()),
-                        fmt::format("if it is one all the same, inflate it first: {}", unpacker.tool));
+                        fmt::format("'{}' decompresses to more than {} bytes from {}, which no mesh does",
+                                    name, limit, bytes.size()),
+                        fmt::format("if it is a mesh, decompress it first: {}", unpacker.tool));
         if (size > limit) too_large(name, limit);
         if (state == Unpacker::State::end_of_member) {
             if (!unpacker.next_member(in)) break;

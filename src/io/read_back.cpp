@@ -497,7 +497,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
     ReadBack back;
     const auto refuse = [&](std::string message) {
         throw Error(ErrorKind::output, "E-READBACK",
-                    fmt::format("'{}' does not hold what was written: {}", file.name(), message),
+                    fmt::format("'{}' differs from the data that was written: {}", file.name(), message),
                     "this is a bug in facetmill or a fault of the disk; existing outputs are unchanged");
     };
     ProgressSteps steps({4, 1, 5});

@@ -116,11 +116,12 @@ std::vector<ReadWarning> overridden(const std::string& file, const Convention& s
                                     const ReadSettings& settings) {
     std::vector<ReadWarning> warnings;
     const auto warn = [&](const char* what, std::string_view was, std::string_view given) {
-        warnings.push_back({Severity::warning, "W-OVERRIDDEN",
-                            fmt::format("'{}' states {} {}, and is taken as {}: nothing is converted", file,
-                                        what, was, given),
-                            file_mark(file),
-                            fmt::format("leave it out; transform: {{{}: {}}} converts", what, given), false});
+        warnings.push_back(
+            {Severity::warning, "W-OVERRIDDEN",
+             fmt::format("'{}' states {} {}, but {} is used instead, without a conversion", file, what, was,
+                         given),
+             file_mark(file),
+             fmt::format("leave out the option; to convert, use transform: {{{}: {}}}", what, given), false});
     };
     if (settings.unit && stated.unit != Unit::unknown && *settings.unit != stated.unit)
         warn("unit", to_string(stated.unit), to_string(*settings.unit));

@@ -64,7 +64,7 @@ bool read_range(const Value& value, Bound& out, Reader read, Problems& problems)
         problems.add(
             value.mark, "E-RANGE",
             fmt::format("no number is at least {} and at most {}", to_string(*out.min), to_string(*out.max)),
-            "exchange min and max");
+            "swap min and max");
         good = false;
     }
     return good && (!value.entries.empty() || wrong_type(value, "min or max", problems));

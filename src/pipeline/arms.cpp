@@ -116,7 +116,7 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
         problems_.add(
             variables.mark.known() ? variables.mark : entry.key_mark, "E-TYPE",
             fmt::format("foreach is a map of variables to their values, found {}", variables.described()),
-            "foreach: {lod: [50%, 25%]} with do: [...] beside it");
+            "foreach: {lod: [50%, 25%]}, and the key do: [...] in the same item");
         return;
     }
     if (!body) {
@@ -128,7 +128,7 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
     for (const auto& variable : variables.entries) {
         if (find_variable(scope, variable.key))
             problems_.add(variable.key_mark, "E-NAME",
-                          fmt::format("there is a variable '{}' already", variable.key));
+                          fmt::format("a variable '{}' already exists", variable.key));
         else if (!is_variable_name(variable.key))
             problems_.add(variable.key_mark, "E-NAME",
                           fmt::format("'{}' cannot name a variable", variable.key));

@@ -33,8 +33,7 @@ void warn_of_empty_selection(const Step& step, const Scene& scene, Context& cont
 
 void require_finite(const Scene& scene) {
     if (const auto what = not_finite(scene))
-        throw Error(ErrorKind::stage, "E-RANGE",
-                    fmt::format("{} came out beyond 1.8e308, the largest number", *what),
+        throw Error(ErrorKind::stage, "E-RANGE", fmt::format("{} exceeds 1.8e308, the largest number", *what),
                     "bring the scene near 1 in size before: transform: {scale: 1e-150}");
 }
 

@@ -166,7 +166,8 @@ class Builder : public YAML::EventHandler {
             quoted_ = {at, *end};
             return;
         }
-        problems_.add(source_.mark(at), "E-YAML", "the quote is never closed", "close it in its line");
+        problems_.add(source_.mark(at), "E-YAML", "the quote is never closed",
+                      "close the quote on the same line");
         throw Stop{};
     }
 
@@ -201,7 +202,7 @@ class Builder : public YAML::EventHandler {
             problems_.add(
                 where, "E-EXPANSION",
                 nodes_ > max_nodes
-                    ? fmt::format("with its aliases written out the file has more than {} values", max_nodes)
+                    ? fmt::format("with all aliases expanded, the file has more than {} values", max_nodes)
                     : fmt::format("nested more than {} levels deep", deepest));
             throw Stop{};
         }

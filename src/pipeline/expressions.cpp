@@ -18,7 +18,7 @@ std::string hint_of_expression(std::string_view inside) {
     if (bare != inside && is_variable_name(bare.substr(0, bare.find('.'))))
         return fmt::format("write ${{{}}}, without blanks", bare);
     if (inside.find_first_of("+-*/()") != std::string_view::npos)
-        return "an expression names a value and does not calculate: give the value by a param of its own";
+        return "an expression cannot calculate: give the result as another param";
     return "for a literal ${ write $${";
 }
 
@@ -152,7 +152,7 @@ class Resolver {
         if (name == "index") {
             if (variable.index) return Value::scalar(std::to_string(*variable.index), v.mark);
             fail(v, inside, "E-EXPRESSION",
-                 fmt::format("'{}' has no index: only the variables of a foreach have", variable.name));
+                 fmt::format("'{}' has no index: only the variables of a foreach have one", variable.name));
             return {};
         }
         const std::vector<std::string> properties = {"stem", "name", "dir", "ext", "index"};

@@ -14,8 +14,8 @@ const RegisterMessages pipeline_messages{
      "A pipeline has too many values after its aliases are expanded, or it is nested too deeply.",
      "Use fewer aliases, or use a `foreach`.", ErrorKind::usage},
     {"E-EXPORT",
-     "A run cannot be exported to a workflow. None of its outputs is known in advance, the engine cannot "
-     "represent a file name, or `--keep-cells` has no work to divide.",
+     "A run cannot be exported to a workflow. No output of the run is known in advance, the engine cannot "
+     "represent a file name, or no step can be divided into jobs (`--keep-cells`).",
      "Add a report to the pipeline, as in `report: \"${input.stem}.json\"`. Otherwise rename the file, or "
      "use `facetmill batch`.",
      ErrorKind::usage},

@@ -249,8 +249,7 @@ class Params {
         } else if (!settings_.parameters_needed) {
             out.deferred = true;
         } else if (options.required || !entry.value.is_map() || !entry.value.find("required")) {
-            problems_.add(entry.key_mark, "E-PARAM",
-                          fmt::format("the parameter '{}' has no value", entry.key),
+            problems_.add(entry.key_mark, "E-PARAM", fmt::format("the param '{}' has no value", entry.key),
                           way_to_give(entry.key) + (options.help.empty() ? "" : " (" + options.help + ")"));
             out.deferred = true;
         } else {
@@ -320,7 +319,7 @@ class Params {
                                                  : fmt::format("at most {}", *options.max);
         problems_.add(
             value.mark, "E-RANGE",
-            fmt::format("the parameter '{}' must be {}, found {}", entry.key, bounds, value.described()));
+            fmt::format("the param '{}' must be {}, found {}", entry.key, bounds, value.described()));
     }
 
     static std::optional<Comparable> comparable(const Value::Entry& entry, const ParamOptions& options,
@@ -328,7 +327,7 @@ class Params {
         if (options.is_list()) {
             if (value.is_list())
                 problems.add(value.mark, "E-WHEN",
-                             fmt::format("'{}' is a list, which is not compared", entry.key),
+                             fmt::format("'{}' is a list, which cannot be compared", entry.key),
                              "compare a param of one value");
             return {};
         }
@@ -395,7 +394,7 @@ void refuse_repeated(const PlanSettings& settings, Problems& problems) {
     for (const auto& [name, text] : settings.defines)
         if (const auto [known, is_new] = first.emplace(name, text); !is_new)
             problems.add(mark_of_define(settings, name, text, 0), "E-PARAM",
-                         fmt::format("the parameter '{}' is given twice", name),
+                         fmt::format("the param '{}' is given twice", name),
                          fmt::format("it was '{}' before; leave one out", known->second));
 }
 
@@ -439,8 +438,7 @@ Scope read_params(const Value* params, const PlanSettings& settings, Json& json,
     for (const auto& [name, text] : settings.defines)
         if (!find_variable(all.scope, name))
             problems.add(mark_of_define(settings, name, text, 0), "E-PARAM",
-                         fmt::format("the pipeline has no parameter '{}'", name),
-                         no_such_param(name, all.scope));
+                         fmt::format("the pipeline has no param '{}'", name), no_such_param(name, all.scope));
     refuse_repeated(settings, problems);
     return std::move(all.scope);
 }
@@ -453,7 +451,7 @@ Scope fragment_params(const Value& document, const Value& given, const PlanSetti
     for (const auto& entry : given.entries)
         if (!find_variable(all.scope, entry.key))
             problems.add(entry.key_mark, "E-PARAM",
-                         fmt::format("the included file has no parameter '{}'", entry.key),
+                         fmt::format("the included file has no param '{}'", entry.key),
                          no_such_param(entry.key, all.scope));
     return std::move(all.scope);
 }

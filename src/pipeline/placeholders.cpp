@@ -43,9 +43,9 @@ void warn(const Value& value, const Placeholder& found, Problems& problems) {
             : fmt::format("an expression is written {}, where {} is a param or the variable of a foreach",
                           found.expression,
                           found.expression.substr(2, found.expression.find_first_of(".}") - 2));
-    problems.warn(mark_within(value.mark, found.text), "W-PLACEHOLDER",
-                  fmt::format("'{}' is no expression: the name of the file has it as it is", found.text),
-                  hint);
+    problems.warn(
+        mark_within(value.mark, found.text), "W-PLACEHOLDER",
+        fmt::format("'{}' is not an expression, so the file name contains it unchanged", found.text), hint);
 }
 
 } // namespace

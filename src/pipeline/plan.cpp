@@ -81,8 +81,7 @@ void check_keys(const Value& document, const std::vector<std::string>& keys, Pro
         const bool of_pipelines =
             std::find(top_level_keys.begin(), top_level_keys.end(), entry.key) != top_level_keys.end();
         if (of_pipelines)
-            problems.add(entry.key_mark, "E-KEY",
-                         fmt::format("a file that is included has no '{}'", entry.key),
+            problems.add(entry.key_mark, "E-KEY", fmt::format("an included file cannot have '{}'", entry.key),
                          "it belongs to the pipeline that includes it");
         else
             problems.add(entry.key_mark, "E-KEY", fmt::format("a pipeline has no key '{}'", entry.key),
@@ -93,8 +92,8 @@ void check_keys(const Value& document, const std::vector<std::string>& keys, Pro
 void check_format(const Value& document, Problems& problems) {
     const Value* format = document.find("facetmill");
     if (!format)
-        return problems.add(document.mark, "E-FORMAT-VERSION",
-                            "the pipeline does not say which format it is in", "begin with: facetmill: 1");
+        return problems.add(document.mark, "E-FORMAT-VERSION", "the pipeline does not state its format",
+                            "begin with: facetmill: 1");
     if (format->as_integer() != 1)
         problems.add(
             format->mark, "E-FORMAT-VERSION",

@@ -23,7 +23,7 @@ void rebase(Value& path, const fs::path& prefix, RunTimePaths run_time) {
     if (path.text.starts_with("${")) {
         if (run_time == RunTimePaths::kept) return;
         throw Error(ErrorKind::usage, "E-SAVE",
-                    fmt::format("what '{}' reads is known only at run time", path.text),
+                    fmt::format("the files that '{}' reads are known only at run time", path.text),
                     "save the pipeline in the working directory", path.mark);
     }
     path.text = (prefix / path.text).lexically_normal().generic_string();

@@ -40,10 +40,10 @@ std::string hint_of_no_stage(const std::string& name) {
     const std::string word = name.substr(0, word_end);
     if (word_end < name.size() && (is_stage(word) || stage_called(word))) { // "write a.glb", "simplify:10%"
         if (name.find_first_of("!+|") != std::string::npos)
-            return "its words are arguments of their own: leave out the quotes around all of them";
+            return "leave out the quotes, so that each word is a separate argument";
         std::size_t value = name.find_first_not_of(" :\t", word_end);
         value = std::min(value, name.size());
-        return fmt::format("a colon and a blank follow the name: {}: {}", word, name.substr(value));
+        return fmt::format("write a colon and a space after the name: {}: {}", word, name.substr(value));
     }
     if (name.find_first_of("./") != std::string::npos)
         return fmt::format("load: {0} reads a file, write: {0} writes one", name);
@@ -138,7 +138,7 @@ bool Planner::count_step(const Mark& where) {
     if (steps_ > max_steps) return false; // reported once
     if (++steps_ <= max_steps) return true;
     problems_.add(where, "E-FOREACH",
-                  fmt::format("with every foreach written out there are more than {} stages", max_steps),
+                  fmt::format("with every foreach expanded, the pipeline has more than {} stages", max_steps),
                   "foreach inside foreach multiplies; take fewer values");
     return false;
 }

@@ -105,11 +105,11 @@ Diagnostic yaml_fault(const SourceIndex& source, std::size_t at, const std::stri
     const Mark where = source.mark(at);
     if (const std::string hint = bare_item_hint(text, at); !hint.empty()) is.hint = hint;
     if (read.open && read.open->line < where.line)
-        is.hint =
-            fmt::format("what opens in line {}, column {} is not closed", read.open->line, read.open->column);
+        is.hint = fmt::format("the bracket at line {}, column {} is not closed", read.open->line,
+                              read.open->column);
     if (read.quoted && read.quoted->end <= at)
         if (const std::string hint = quote_hint(source, *read.quoted, at); !hint.empty()) is.hint = hint;
-    if (is_indented_by_tab(text, at)) is.hint = "indent with blanks: YAML takes no tabs there";
+    if (is_indented_by_tab(text, at)) is.hint = "indent with spaces: YAML does not allow tabs there";
     return {Severity::error, "E-YAML", is.message, where, is.hint};
 }
 

@@ -56,12 +56,11 @@ void warn_of_rest_pose(const std::string& limit, const std::vector<std::string>&
     for (std::size_t i = 0; i < std::min(most, parts.size()); ++i)
         shown.push_back(fmt::format("'{}'", parts[i]));
     if (parts.size() > most) shown.push_back(fmt::format("{} more", parts.size() - most));
-    context.warn(
-        "W-REST-POSE",
-        fmt::format("{}: {} bounds, and the deviation measures, only the rest pose of {}: where joints bend "
-                    "the surface or morph targets move it, it may be far off",
-                    context.name(), limit, join_texts(shown)),
-        "use simplify: 50%, a ratio, for parts that move, and compare their poses");
+    context.warn("W-REST-POSE",
+                 fmt::format("{}: {} and the deviation apply only to the rest pose of {}: where joints bend "
+                             "the surface or morph targets move it, the error may be much larger",
+                             context.name(), limit, join_texts(shown)),
+                 "use simplify: 50%, a ratio, for parts that move, and compare their poses");
 }
 
 } // namespace facetmill

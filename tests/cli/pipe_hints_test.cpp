@@ -9,8 +9,8 @@ TEST_CASE("hints name stages and options as pipe takes them", "[cli]") {
         const char *yaml, *pipe;
     };
     const Case cases[] = {
-        {"give both when you load it: load: {path: ..., unit: mm, up: z}",
-         "give both when you load it: load ... --unit mm --up z"},
+        {"give unit and up axis when you load the mesh: load: {path: ..., unit: mm, up: z}",
+         "give unit and up axis when you load the mesh: load ... --unit mm --up z"},
         {"write 10%, or name the option for a count (faces: 10)",
          "write 10%, or name the option for a count (--faces 10)"},
         {"the common key when: {faces: {min: 1}} skips a write",

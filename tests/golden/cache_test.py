@@ -604,7 +604,7 @@ class FullDisk(Case):
                              cwd=self.dir, env=env, capture_output=True, text=True, timeout=60)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(run.stderr.count("W-CACHE"), 1, run.stderr)
-        self.assertIn("has too little space left", run.stderr)
+        self.assertIn("is nearly full", run.stderr)
         self.assertTrue((self.dir / "out.ply").exists())
 
 

@@ -146,8 +146,8 @@ class Cells(LargeCase):
             self.mill("pipe", "load", SCAN, "--unit", "m", "--up", "y", "!", "write", name)
             load = ("pipe", "--memory", "1M", "--partition", "always", "load", name)
             told = self.mill(*load, "--unit", "mm", "--up", "z", "!", "write", "o.ply").stderr
-            self.assertIn(f"'{name}' states unit m, and is taken as mm: nothing is converted", told)
-            self.assertIn(f"'{name}' states up y, and is taken as z: nothing is converted", told)
+            self.assertIn(f"'{name}' states unit m, but mm is used instead, without a conversion", told)
+            self.assertIn(f"'{name}' states up y, but z is used instead, without a conversion", told)
             self.assertIn(b"comment unit: mm\ncomment up: z\n", (self.dir / "o.ply").read_bytes()[:200])
             self.assertNotIn("W-OVERRIDDEN", self.mill(*load, "--unit", "m", "!", "write", "o.ply").stderr)
             self.assertIn(b"comment unit: m\ncomment up: y\n", (self.dir / "o.ply").read_bytes()[:200])

@@ -421,7 +421,7 @@ class Hints(Case):
         run = self.typed("pipe load terrain.off ! section z=.25 --path s.json")
         self.assertIn("W-OPEN-SECTION", run.stderr)
         self.assertNotIn("W-INSIDE-OUT", run.stderr)
-        self.assertIn("take the lines alone of a terrain", run.stderr)
+        self.assertIn("use only the lines of a terrain", run.stderr)
         self.assertNotIn("use clean first", run.stderr)
 
 

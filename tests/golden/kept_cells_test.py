@@ -191,7 +191,7 @@ class KeptCells(LargeCase):
             self.assertIn("E-BUSY", self.keep(expect=4).stderr)
         self.assertFalse((self.dir / "o.ply").exists())
         first = self.stopped()
-        self.assertIn("another run is at work on the cells in", self.keep(expect=4).stderr)
+        self.assertIn("another run is using the cells in", self.keep(expect=4).stderr)
         first.send_signal(signal.SIGCONT)
         self.assertIsNotNone(first.communicate())
         self.assertEqual(first.returncode, 0)

@@ -131,8 +131,8 @@ TEST_CASE("inputs that are not there are refused", "[io]") {
             io::Input::open("no.step");
         }).starts_with("missing [E-FILE] there is no file 'no.step' | it is a CAD file of curved surfaces"));
     CHECK(failure([&] { Input::open(dir.path()); }) ==
-          fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | name a file in it, or "
-                      "(load, batch --input) many by a pattern: '{0}/*.ply'",
+          fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | give a file in it, or "
+                      "(load, batch --input) a pattern for many files: '{0}/*.ply'",
                       dir.path().string()));
 }
 
@@ -144,10 +144,9 @@ TEST_CASE("a device, and gzip that inflates as no mesh does, end at a limit", "[
     const io::Bytes bomb = io::packed(io::Bytes(std::size_t{80} << 20), io::Packing::gzip);
     put(dir / "bomb.gz", std::string(io::as_text(bomb)));
     CHECK(failure([&] { Input::open(dir / "bomb.gz"); }) ==
-          fmt::format(
-              "limit [E-SIZE] '{}' inflates to more than 67108864 bytes from {}, as no mesh does | if it "
-              "is one all the same, inflate it first: gzip -d",
-              (dir / "bomb.gz").string(), bomb.size()));
+          fmt::format("limit [E-SIZE] '{}' decompresses to more than 67108864 bytes from {}, which no mesh "
+                      "does | if it is a mesh, decompress it first: gzip -d",
+                      (dir / "bomb.gz").string(), bomb.size()));
 }
 
 TEST_CASE("a directory in the place of a file leads to the files in it", "[io]") {
@@ -158,7 +157,7 @@ TEST_CASE("a directory in the place of a file leads to the files in it", "[io]")
     } catch (const Error& error) {
         CHECK(error.diagnostics().front().id == "E-DIRECTORY");
         CHECK(error.diagnostics().front().hint ==
-              "name a file in it, or (load, batch --input) many by a pattern: '" +
+              "give a file in it, or (load, batch --input) a pattern for many files: '" +
                   (folder.path() / "*.ply").string() + "'");
     }
 }

@@ -28,8 +28,8 @@ TEST_CASE("a unit or an up axis that the format states is not overridden silentl
             "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)" +
         std::string(48, 'A') + R"("}]})";
     CHECK(warnings("a.gltf", gltf, Unit::mm, UpAxis::z) ==
-          "W-OVERRIDDEN: 'a.gltf' states unit m, and is taken as mm: nothing is converted\n"
-          "W-OVERRIDDEN: 'a.gltf' states up y, and is taken as z: nothing is converted\n");
+          "W-OVERRIDDEN: 'a.gltf' states unit m, but mm is used instead, without a conversion\n"
+          "W-OVERRIDDEN: 'a.gltf' states up y, but z is used instead, without a conversion\n");
     CHECK(warnings("a.gltf", gltf, Unit::m, UpAxis::y).empty());
     CHECK(warnings("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", Unit::mm, {}).empty());
 }

@@ -145,8 +145,10 @@ TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
     const auto refused = [&](const std::string& more) {
         return failure([&] { load("a.ply", head + edges + "end_header\n" + rows + more, false); });
     };
-    CHECK(refused("3 1\n1 5\n") == "malformed [E-PLY] a.ply:8: edge 1 of 2 names vertex 5, there are 5");
-    CHECK(refused("-1 1\n1 0\n") == "malformed [E-PLY] a.ply:8: edge 0 of 2 names vertex -1, there are 5");
+    CHECK(refused("3 1\n1 5\n") ==
+          "malformed [E-PLY] a.ply:8: edge 1 of 2 refers to vertex 5, but the file has 5");
+    CHECK(refused("-1 1\n1 0\n") ==
+          "malformed [E-PLY] a.ply:8: edge 0 of 2 refers to vertex -1, but the file has 5");
     CHECK(failure([&] {
               load("a.ply",
                    head +
@@ -158,9 +160,9 @@ TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
 
 TEST_CASE("a line of an OBJ that names no vertex is refused with its place", "[io]") {
     CHECK(failure([] { load("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n\nl 1 3\n"); }) ==
-          "malformed [E-OBJ] a.obj:5: a line names a vertex that is not there: the file has 2");
+          "malformed [E-OBJ] a.obj:5: a line refers to a vertex that does not exist: the file has 2");
     CHECK(failure([] { load("a.obj", "v 0 0 0\nv 1 0 0\nl 1 -3\n"); }) ==
-          "malformed [E-OBJ] a.obj:3: a line names a vertex that is not there: the file has 2");
+          "malformed [E-OBJ] a.obj:3: a line refers to a vertex that does not exist: the file has 2");
     CHECK(load("a.obj", "v 0 0 0\nv 1 0 0\nl 1\nl 1 2\n").log.lines.at(0).segments.size() == 1);
 }
 

@@ -42,12 +42,12 @@ TEST_CASE("a broken PLY is refused with its place", "[io]") {
         {"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
          "malformed [E-PLY] a.ply:3: element 'vertex' lacks one of the properties x, y and z"},
         {"ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n1\n",
-         "malformed [E-PLY] a.ply:3: element 'vertex' is to have 99999999999 items, the 2 bytes left hold at "
-         "most 1"},
+         "malformed [E-PLY] a.ply:3: element 'vertex' should have 99999999999 items, but the remaining 2 "
+         "bytes hold at most 1"},
         {ply_head + "0 0 0\n1 0 0\n0 1 zero\n3 0 1 2\n",
          "malformed [E-PLY] a.ply:12: expected z, found 'zero'"},
         {ply_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
-         "malformed [E-PLY] a.ply:7: face 0 of 1 names vertex 3, there are 3"},
+         "malformed [E-PLY] a.ply:7: face 0 of 1 refers to vertex 3, but the file has 3"},
         {ply_head + "0 0 0\n1 0 0\n0 1 0\n",
          "malformed [E-PLY] a.ply:13: expected the length of a list, found the end of the file"},
         {ply_head + "0 0 0\n1 0 0\n0 1 0\n300 0 1 2\n",
@@ -67,7 +67,8 @@ TEST_CASE("a broken PLY is refused with its place", "[io]") {
           fmt::format("malformed [E-PLY] a.ply: the file ends in element 'face', 0 of 1, at byte {}",
                       head + 40));
     CHECK(reading("a.ply", binary.substr(0, head + 20)) ==
-          "malformed [E-PLY] a.ply:3: element 'vertex' is to have 3 items, the 20 bytes left hold at most 1");
+          "malformed [E-PLY] a.ply:3: element 'vertex' should have 3 items, but the remaining 20 bytes hold "
+          "at most 1");
 }
 
 TEST_CASE("a broken STL is refused with its place", "[io]") {
@@ -83,13 +84,12 @@ TEST_CASE("a broken STL is refused with its place", "[io]") {
          "leaves out such vertices and the faces at them"},
         {"solid a\n" + facet + "endsolid\nsolod b\n",
          "malformed [E-STL] a.stl:10: expected 'solid', found 'solod'"},
-        {"solid a\nendsolid a\n",
-         "malformed [E-EMPTY] 'a.stl' has no mesh: not one vertex | export it again, with the meshes "
-         "themselves: programs leave out what is hidden or not selected"},
+        {"solid a\nendsolid a\n", "malformed [E-EMPTY] 'a.stl' has no mesh and no vertex | export it again "
+                                  "with its meshes: programs may leave out hidden or unselected objects"},
         {"what is this", "malformed [E-STL] a.stl: 12 bytes are neither STL text nor binary, which has 84 "
                          "before the first triangle"},
         {std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(60, '\0'),
-         "malformed [E-STL] a.stl: the file is to have 2 triangles and ends in triangle 1, at byte 144"},
+         "malformed [E-STL] a.stl: the file should have 2 triangles, but ends in triangle 1, at byte 144"},
     };
     for (const auto& [text, message] : cases) CHECK(reading("a.stl", text) == message);
 }
@@ -108,15 +108,14 @@ TEST_CASE("a broken OBJ is refused with its place", "[io]") {
         {triangle + "f 1 2 3/1/1/1\n",
          "malformed [E-OBJ] a.obj:4: expected a corner (v, v/vt, v//vn or v/vt/vn), found '3/1/1/1'"},
         {triangle + "f 1 2 3\n# more\nf 1 2 4\n",
-         "malformed [E-OBJ] a.obj:6: a face names a vertex that is not there: the file has 3"},
+         "malformed [E-OBJ] a.obj:6: a face refers to a vertex that does not exist: the file has 3"},
         {triangle + "f -1 -2 -4\n",
-         "malformed [E-OBJ] a.obj:4: a face names a vertex that is not there: the file has 3"},
+         "malformed [E-OBJ] a.obj:4: a face refers to a vertex that does not exist: the file has 3"},
         {triangle + "f 1 2 99999999999999999999\n", "malformed [E-OBJ] a.obj:4: expected a corner (v, v/vt, "
                                                     "v//vn or v/vt/vn), found '99999999999999999999'"},
-        {"# nothing\n", "malformed [E-EMPTY] 'a.obj' has no mesh: not one vertex | export it again, with the "
-                        "meshes themselves: programs leave out what is hidden or not selected"},
-        {"", "malformed [E-EMPTY] 'a.obj' is empty: it has no bytes | its export or its download broke off: "
-             "make the file again"},
+        {"# nothing\n", "malformed [E-EMPTY] 'a.obj' has no mesh and no vertex | export it again with its "
+                        "meshes: programs may leave out hidden or unselected objects"},
+        {"", "malformed [E-EMPTY] 'a.obj' is empty: it has no bytes | export or download the file again"},
     };
     for (const auto& [text, message] : cases) CHECK(reading("a.obj", text) == message);
 }
@@ -127,11 +126,11 @@ TEST_CASE("a broken OFF is refused with its place", "[io]") {
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n",
          "malformed [E-OFF] a.off:6: expected the number of corners, found the end of the file"},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
-         "malformed [E-OFF] a.off:6: a face names vertex 3, there are 3"},
+         "malformed [E-OFF] a.off:6: a face refers to vertex 3, but the file has 3"},
         {"OFF\n353535235358 6 0\n0 0 0\n",
          "limit [E-SIZE] a.off: 353535235358 vertices and 6 faces are more than can be held"},
-        {"OFF\n1000 6 0\n0 0 0\n", "malformed [E-OFF] a.off:2: 1000 vertices and 6 faces are promised, which "
-                                   "the 9 bytes left cannot hold"},
+        {"OFF\n1000 6 0\n0 0 0\n", "malformed [E-OFF] a.off:2: the header gives 1000 vertices and 6 faces, "
+                                   "but the remaining 9 bytes cannot hold them"},
         {"4OFF\n1 0 0\n0 0 0 0\n", "malformed [E-OFF] a.off:1: '4OFF' is a kind of OFF that is not read: "
                                    "points have three coordinates here | expected "
                                    "OFF with any of the prefixes ST, C and N, in this order"},
@@ -146,8 +145,7 @@ TEST_CASE("content decides over the name, and the name where content does not te
     const Scene scene = io::read_scene(io::Input::of("a.stl", {bytes.begin(), bytes.end()}), {}, log);
     CHECK(scene.face_count() == 1);
     REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].message ==
-          "'a.stl' is read as off, because that is its content, whatever its name");
+    CHECK(log.warnings[0].message == "'a.stl' is read as off, because its content has this format");
     CHECK(reading("standard input", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") == "nothing");
     CHECK(reading("notes.txt", "hello")
               .starts_with("usage [E-FORMAT] the format of 'notes.txt' is not recognised | give "

@@ -49,11 +49,10 @@ TEST_CASE("zstd that unpacks as no mesh does, or wants a huge window, ends at a 
     const TemporaryDirectory dir;
     const io::Bytes bomb = io::packed(io::Bytes(std::size_t{80} << 20), Packing::zstd);
     put(dir / "bomb.zst", std::string(io::as_text(bomb)));
-    CHECK(
-        failure([&] { io::Input::open(dir / "bomb.zst"); }) ==
-        fmt::format("limit [E-SIZE] '{}' inflates to more than 67108864 bytes from {}, as no mesh does | if "
-                    "it is one all the same, inflate it first: zstd -d",
-                    (dir / "bomb.zst").string(), bomb.size()));
+    CHECK(failure([&] { io::Input::open(dir / "bomb.zst"); }) ==
+          fmt::format("limit [E-SIZE] '{}' decompresses to more than 67108864 bytes from {}, which no mesh "
+                      "does | if it is a mesh, decompress it first: zstd -d",
+                      (dir / "bomb.zst").string(), bomb.size()));
     // A frame header of RFC 8878 without a size: its window descriptor asks for 2 GiB.
     const std::string header{"\x28\xb5\x2f\xfd\x00\xa8\x01\x00\x00\x00\x00\x00", 12};
     put(dir / "window.zst", header);

@@ -329,10 +329,10 @@ TEST_CASE("a file that does not hold what was written is found out", "[io]") {
             });
         };
         CHECK(back(scene) == "nothing");
-        CHECK(back(moved).starts_with(
-            "output [E-READBACK] 'out' does not hold what was written: a vertex moved farther than "));
+        CHECK(back(moved).starts_with("output [E-READBACK] 'out' differs from the data that was written: a "
+                                      "vertex moved farther than "));
         CHECK(back(fewer).starts_with(
-            "output [E-READBACK] 'out' does not hold what was written: 11 faces, expected 12"));
+            "output [E-READBACK] 'out' differs from the data that was written: 11 faces, expected 12"));
     }
 }
 

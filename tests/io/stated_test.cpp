@@ -76,8 +76,9 @@ TEST_CASE("load takes what it is given, and tells that a comment states somethin
     CHECK(scene.unit == Unit::cm);
     CHECK(scene.up == UpAxis::y);
     REQUIRE(log.warnings.size() == 2);
-    CHECK(log.warnings[0].message == "'cube.obj' states unit mm, and is taken as cm: nothing is converted");
-    CHECK(log.warnings[1].message == "'cube.obj' states up z, and is taken as y: nothing is converted");
+    CHECK(log.warnings[0].message ==
+          "'cube.obj' states unit mm, but cm is used instead, without a conversion");
+    CHECK(log.warnings[1].message == "'cube.obj' states up z, but y is used instead, without a conversion");
     log = {};
     io::read_scene(io::Input::of("cube.obj", io::Bytes(bytes)), {.unit = Unit::mm, .up = UpAxis::z}, log);
     CHECK(log.warnings.empty());

@@ -165,7 +165,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {"a: {b: 1\nc: 2\n", "p.yaml:2:2: error[E-YAML]: expected ',' or '}' here\n"
                              "  c: 2\n"
                              "   ^\n"
-                             "  hint: what opens in line 1, column 4 is not closed"},
+                             "  hint: the bracket at line 1, column 4 is not closed"},
         {"a: {b: 1 c: 2}\n", "p.yaml:1:11: error[E-YAML]: expected ',' or '}' here\n"
                              "  a: {b: 1 c: 2}\n"
                              "            ^\n"
@@ -182,11 +182,11 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {"s:\n- a: \"scan.ply\n- b: 1\n", "p.yaml:2:6: error[E-YAML]: the quote is never closed\n"
                                           "  - a: \"scan.ply\n"
                                           "       ^\n"
-                                          "  hint: close it in its line"},
+                                          "  hint: close the quote on the same line"},
         {"s:\n- a: 'it''s\n- b: 1\n", "p.yaml:2:6: error[E-YAML]: the quote is never closed\n"
                                       "  - a: 'it''s\n"
                                       "       ^\n"
-                                      "  hint: close it in its line"},
+                                      "  hint: close the quote on the same line"},
         {"s:\n- a: \"x\n- b: \"y\"\n",
          "p.yaml:3:7: error[E-YAML]: expected a key of the map here\n"
          "  - b: \"y\"\n"
@@ -199,7 +199,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {"s:\n\t- a: 1\n", "p.yaml:2:2: error[E-YAML]: unexpected list item ('- ...')\n"
                            "  \t- a: 1\n"
                            "  \t^\n"
-                           "  hint: indent with blanks: YAML takes no tabs there"},
+                           "  hint: indent with spaces: YAML does not allow tabs there"},
         {"a: %10\n", "p.yaml:1:4: error[E-YAML]: a value cannot begin with '%'\n"
                      "  a: %10\n"
                      "     ^\n"
@@ -239,8 +239,8 @@ TEST_CASE("expansion is bounded", "[pipeline]") {
         for (int k = 0; k < 9; ++k) bomb += ", " + before;
         bomb += "]\n";
     }
-    CHECK(problems_of(bomb).starts_with("p.yaml:5:45: error[E-EXPANSION]: with its aliases written out the "
-                                        "file has more than 100000 values"));
+    CHECK(problems_of(bomb).starts_with(
+        "p.yaml:5:45: error[E-EXPANSION]: with all aliases expanded, the file has more than 100000 values"));
     CHECK(problems_of(std::string(5000, '[')).find("nested more than 64 levels deep") != std::string::npos);
     std::string deep = "a0: &a0 [x]\n";
     for (int i = 1; i < 80; ++i)

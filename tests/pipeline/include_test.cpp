@@ -102,11 +102,11 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     REQUIRE(problems.all().size() == 1);
     CHECK(problems.all()[0].id == "E-INCLUDE");
     CHECK(problems.all()[0].hint.find("first.yaml -> ") != std::string::npos);
-    has("  - include: report.yaml\n", "error[E-KEY]: a file that is included has no 'report'");
-    has("  - include: needs.yaml\n", "needs.yaml:2:10: error[E-PARAM]: the parameter 'k' has no value");
+    has("  - include: report.yaml\n", "error[E-KEY]: an included file cannot have 'report'");
+    has("  - include: needs.yaml\n", "needs.yaml:2:10: error[E-PARAM]: the param 'k' has no value");
     has("  - include: needs.yaml\n", "with: {k: ...}");
     has("  - include: needs.yaml\n    with: {k: 2}\n", "error[E-TYPE]");
-    has("  - include: needs.yaml\n    with: {k: 10%, kk: 1}\n", "the included file has no parameter 'kk'");
+    has("  - include: needs.yaml\n    with: {k: 10%, kk: 1}\n", "the included file has no param 'kk'");
     has("  - include: list.yaml\n", "list.yaml:1:1: error[E-TYPE]");
     has("  - include: broken.yaml\n", "broken.yaml:");
     has("  - include: needs.yaml\n    when: true\n", "'when' is not a key of an item");
@@ -163,5 +163,5 @@ TEST_CASE("a preset gives params that the command line does not", "[pipeline]") 
               .find("wrong.yaml:3:7: error[E-TYPE]: a param is a value or a list of them") !=
           std::string::npos);
     const std::string found = planned(text, wrong).problems;
-    CHECK(found.find("wrong.yaml:2:6: error[E-PARAM]: the pipeline has no parameter 'kep'") != found.npos);
+    CHECK(found.find("wrong.yaml:2:6: error[E-PARAM]: the pipeline has no param 'kep'") != found.npos);
 }

@@ -45,7 +45,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
     };
     const Case cases[] = {
         {"stages:\n  - test-load: a.ply\n",
-         "p.yaml:1:1: error[E-FORMAT-VERSION]: the pipeline does not say which format it is in\n"
+         "p.yaml:1:1: error[E-FORMAT-VERSION]: the pipeline does not state its format\n"
          "  stages:\n"
          "  ^\n"
          "  hint: begin with: facetmill: 1"},
@@ -76,11 +76,11 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
         {stages("  - write a.glb\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'write a.glb'\n"
                                       "    - write a.glb\n"
                                       "      ^~~~~~~~~~~\n"
-                                      "  hint: a colon and a blank follow the name: write: a.glb"},
+                                      "  hint: write a colon and a space after the name: write: a.glb"},
         {stages("  - test-cut:10%\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'test-cut:10%'\n"
                                        "    - test-cut:10%\n"
                                        "      ^~~~~~~~~~~~\n"
-                                       "  hint: a colon and a blank follow the name: test-cut: 10%"},
+                                       "  hint: write a colon and a space after the name: test-cut: 10%"},
         {stages("  - decimate: 3\n"),
          "p.yaml:4:5: error[E-STAGE]: there is no stage 'decimate'\n"
          "    - decimate: 3\n"
@@ -99,7 +99,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "p.yaml:4:13: error[E-EXPRESSION]: expected ${name} or ${name.property}, found ${a + 1}\n"
          "    - write: \"${a + 1}.ply\"\n"
          "              ^~~~~~~~\n"
-         "  hint: an expression names a value and does not calculate: give the value by a param of its own"},
+         "  hint: an expression cannot calculate: give the result as another param"},
         {stages("  - a.ply: 3\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'a.ply'\n"
                                    "    - a.ply: 3\n"
                                    "      ^~~~~\n"
@@ -439,9 +439,8 @@ TEST_CASE("a file to write whose name has what other programs replace is warned 
                        name + "\"\n")
             .problems;
     };
-    CHECK(warnings("x-{scan.stem}.glb") == "p.yaml:5:20: warning[W-PLACEHOLDER]: '{scan.stem}' is no "
-                                           "expression: the name of the file has it as it "
-                                           "is\n"
+    CHECK(warnings("x-{scan.stem}.glb") == "p.yaml:5:20: warning[W-PLACEHOLDER]: '{scan.stem}' is not an "
+                                           "expression, so the file name contains it unchanged\n"
                                            "    - test-write: \"x-{scan.stem}.glb\"\n"
                                            "                     ^~~~~~~~~~~\n"
                                            "  hint: write ${scan.stem}");
@@ -572,7 +571,7 @@ TEST_CASE("a parameter is given once", "[pipeline]") {
     const auto result = planned("facetmill: 1\nparams: {keep: integer}\n"
                                 "stages: [{test-load: a.ply}, {test-cut: \"${keep}\"}]\n",
                                 settings);
-    CHECK(result.problems == "-D:1:1: error[E-PARAM]: the parameter 'keep' is given twice\n"
+    CHECK(result.problems == "-D:1:1: error[E-PARAM]: the param 'keep' is given twice\n"
                              "  keep=3\n"
                              "  ^~~~~~\n"
                              "  hint: it was '2' before; leave one out");
@@ -648,7 +647,7 @@ TEST_CASE("each value of a list has a type, and its own place in messages", "[pi
         return all.substr(0, all.find("\n  hint"));
     };
     CHECK(problem("{type: list, of: integer, max: 9, default: 1}", defining("5,12")) ==
-          "-D:1:8: error[E-RANGE]: the parameter 'lods' must be at most 9, found '12'\n"
+          "-D:1:8: error[E-RANGE]: the param 'lods' must be at most 9, found '12'\n"
           "  lods=5,12\n"
           "         ^~");
     for (const auto& [text, place] :
@@ -682,7 +681,7 @@ TEST_CASE("a list is not compared, and stands in no text", "[pipeline]") {
             .problems;
     };
     const std::string compared = with("  - test-cut: 3\n    when: ${a} == 1\n");
-    CHECK(compared.find("E-WHEN]: 'a' is a list, which is not compared") != std::string::npos);
+    CHECK(compared.find("E-WHEN]: 'a' is a list, which cannot be compared") != std::string::npos);
     CHECK(compared.find("error[", compared.find("error[") + 1) == std::string::npos);
     CHECK(with("  - test-write: \"${a}.ply\"\n").find("cannot be used inside a text") != std::string::npos);
 }

@@ -292,17 +292,17 @@ TEST_CASE("parameters: types, defaults, -D relative to the working directory", "
     CHECK(good.plan.steps.at(2).given.text == "a${x}.ply.gz.25%.txt");
     CHECK(good.plan.params.dump() ==
           R"({"input":"scans/a.ply.gz","keep":"25%","method":"fast","note":null})");
-    CHECK(with({}).problems == "p.yaml:3:3: error[E-PARAM]: the parameter 'input' has no value\n"
+    CHECK(with({}).problems == "p.yaml:3:3: error[E-PARAM]: the param 'input' has no value\n"
                                "    input: {type: path, help: The scan to read}\n"
                                "    ^~~~~\n"
                                "  hint: give it with -D input=... (The scan to read)");
     CHECK(with({{"input", "a"}, {"kep", "1%"}}).problems ==
-          "-D:1:1: error[E-PARAM]: the pipeline has no parameter 'kep'\n"
+          "-D:1:1: error[E-PARAM]: the pipeline has no param 'kep'\n"
           "  kep=1%\n"
           "  ^~~~~~\n"
           "  hint: did you mean 'keep'?");
     CHECK(with({{"input", "a"}, {"keep", "60%"}}).problems ==
-          "-D:1:6: error[E-RANGE]: the parameter 'keep' must be at most 50%, found '60%'\n"
+          "-D:1:6: error[E-RANGE]: the param 'keep' must be at most 50%, found '60%'\n"
           "  keep=60%\n"
           "       ^~~");
     CHECK(with({{"input", "a"}, {"method", "slow"}}).problems ==
@@ -354,7 +354,7 @@ TEST_CASE("a stage that leaves the range of numbers fails at its place in the pi
     REQUIRE(record.errors.size() == 1);
     CHECK(record.errors[0].id == "E-RANGE");
     CHECK(record.errors[0].where.line == 4);
-    CHECK(record.errors[0].message == "the box in world space came out beyond 1.8e308, the largest number");
+    CHECK(record.errors[0].message == "the box in world space exceeds 1.8e308, the largest number");
 }
 
 namespace {

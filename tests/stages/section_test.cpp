@@ -96,7 +96,7 @@ TEST_CASE("an open mesh is said", "[stages]") {
     const auto run = run_stage("section", "x=0.5", scene_of(shapes::grid(2, 2)));
     REQUIRE(run.record.warnings.size() == 1);
     CHECK(run.record.warnings[0].id == "W-OPEN-SECTION");
-    CHECK(run.record.warnings[0].hint.starts_with("take the lines alone of a terrain or a sheet"));
+    CHECK(run.record.warnings[0].hint.starts_with("use only the lines of a terrain or a sheet"));
     // Next to closed contours, an open contour may mean a hole.
     Scene two = scene_of(shapes::cube());
     append(two.parts[0].mesh, shapes::grid(2, 2));

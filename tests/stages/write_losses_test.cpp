@@ -199,7 +199,7 @@ TEST_CASE("attributes that 3MF has no place for are said", "[stages]") {
     mesh.attributes.push_back(
         {"_heat", Domain::vertex, Role::generic, 1, false, std::vector<float>(mesh.vertex_count(), 1.0F)});
     CHECK(warnings_of(scene, (dir / "a.3mf").string()) ==
-          "W-ATTRIBUTE 3MF has no place for attributes: _heat (glTF keeps them: write .glb)\n");
+          "W-ATTRIBUTE 3MF cannot store attributes: _heat (glTF keeps them: write .glb)\n");
 }
 
 TEST_CASE("a backslash in the name of a file is none in the names beside it", "[stages]") {
@@ -240,9 +240,9 @@ TEST_CASE("colours of faces are kept where corners have colours, and said elsewh
         CHECK(found == std::multiset<std::vector<double>>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}});
     }
     CHECK(warnings_of(scene, (dir / "b.obj").string()) ==
-          "W-ATTRIBUTE OBJ has no place for attributes: COLOR_0 (glTF keeps them: write .glb)\n");
+          "W-ATTRIBUTE OBJ cannot store attributes: COLOR_0 (glTF keeps them: write .glb)\n");
     scene.parts[0].mesh.attributes.push_back(
         {"quality", Domain::face, Role::generic, 1, false, std::vector<float>(4, 1.0F)});
     CHECK(warnings_of(scene, (dir / "b.glb").string()) ==
-          "W-ATTRIBUTE glTF has no place for attributes: quality of faces (PLY keeps them: write .ply)\n");
+          "W-ATTRIBUTE glTF cannot store attributes: quality of faces (PLY keeps them: write .ply)\n");
 }

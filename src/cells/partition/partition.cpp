@@ -68,10 +68,10 @@ class Partition::Distribution {
             },
             memory_ / 4);
         if (given != faces)
-            io::malformed(
-                source_.name(), 0, "E-CHANGED",
-                fmt::format("there were {} triangles, and are {} when they are read again", faces, given),
-                "run it again while no other program writes to the file");
+            io::malformed(source_.name(), 0, "E-CHANGED",
+                          fmt::format("there were {} triangles at first, but {} when the file was read again",
+                                      faces, given),
+                          "run it again while no other program writes to the file");
         grid_.reset();
         records.flush();
     }
@@ -118,7 +118,7 @@ void Partition::distribute(Distribution& work, std::uint64_t most) {
     faces_ = work.count(tree_, most);
     if (faces_ == 0)
         throw Error(ErrorKind::malformed, "E-EMPTY", fmt::format("'{}' has no faces", source_->name()),
-                    "points and lines are processed in memory: --partition never");
+                    "use --partition never to process points and lines in memory");
     // Half of the waiting bytes belong to full lists.
     records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(work.means().memory / 16));
     work.give(records_, faces_);

@@ -376,8 +376,8 @@ class CellCleaning {
         faces_ = {};
         const auto faces = static_cast<std::uint32_t>(placed_->faces());
         if (by.gone.size() == faces && by.come.mesh.face_count() == 0)
-            throw Error(ErrorKind::stage, "E-EMPTY", "clean: no face of the mesh is left",
-                        "what is left of a mesh in memory may be empty: --partition never");
+            throw Error(ErrorKind::stage, "E-EMPTY", "clean: no face of the mesh remains",
+                        "use --partition never, because a mesh in memory may become empty");
         placed_.reset(); // release temporary data first
         partition_.reset();
         partition_ =

@@ -97,7 +97,7 @@ void take_convention(const io::Input& input, const io::ReadSettings& settings,
     if (differs(Unit::unknown, header.unit, contents.unit) ||
         differs(UpAxis::unknown, header.up, contents.up))
         throw Error(ErrorKind::usage, "E-CELLS",
-                    fmt::format("'{}' and '{}' have different units or axes, and cells are of one",
+                    fmt::format("'{}' and '{}' have different units or axes, but cells can have only one",
                                 contents.files.front().input.name(), input.name()),
                     "give both: load: {path: ..., unit: m, up: z}");
     if (contents.unit == Unit::unknown) contents.unit = header.unit;

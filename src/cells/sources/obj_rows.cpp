@@ -180,7 +180,7 @@ class ObjReader final : public RowReader {
 
     [[noreturn]] void refuse(std::int64_t line, std::int64_t all) const {
         io::malformed(input_.name(), line, "E-OBJ",
-                      fmt::format("a face names a vertex that is not there: the file has {}", all));
+                      fmt::format("a face refers to a vertex that does not exist: the file has {}", all));
     }
 
     io::Input input_;

@@ -82,7 +82,7 @@ class OffReader final : public RowReader {
             for (std::int64_t k = 0; k < n; ++k) {
                 const std::int64_t v = text.integer("a vertex");
                 if (v < 0 || v >= vertices)
-                    text.fail(fmt::format("a face names vertex {}, there are {}", v, vertices));
+                    text.fail(fmt::format("a face refers to vertex {}, but the file has {}", v, vertices));
                 corners_.push_back(base_ + static_cast<std::uint32_t>(v));
             }
             face_colours_ |= !text.at_line_end();

@@ -215,8 +215,8 @@ class PlyReader final : public RowReader {
                     if (!faces || !property.list) continue;
                     if (!(value >= 0 && value < static_cast<double>(count_)))
                         io::malformed(input_.name(), e.line, "E-PLY",
-                                      fmt::format("face {} of {} names vertex {}, there are {}", number,
-                                                  e.count, value, count_));
+                                      fmt::format("face {} of {} refers to vertex {}, but the file has {}",
+                                                  number, e.count, value, count_));
                     corners_.push_back(static_cast<std::uint32_t>(value));
                 }
             }

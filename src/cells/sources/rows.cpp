@@ -121,7 +121,7 @@ void read_face(const Rows& rows, const std::string& file, std::uint64_t number, 
             const double vertex = value_at(at, p.type, rows.swap);
             if (!(vertex >= 0 && vertex < static_cast<double>(rows.vertex_count)))
                 io::malformed(file, rows.face_line, "E-PLY",
-                              fmt::format("face {} of {} names vertex {}, there are {}", number,
+                              fmt::format("face {} of {} refers to vertex {}, but the file has {}", number,
                                           rows.face_count, vertex, rows.vertex_count));
             corner = static_cast<std::uint32_t>(vertex);
             at += size;

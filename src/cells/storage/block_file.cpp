@@ -40,14 +40,14 @@ std::uint64_t digest_of(io::Span bytes) {
     throw Error(
         ErrorKind::output, full ? "E-SPACE" : "E-WRITE",
         fmt::format("temporary data cannot be written in '{}': {}", folder.string(), std::strerror(error)),
-        "--scratch DIR names another folder for it, --keep-cells DIR for cells that are kept");
+        "give another folder: --scratch DIR, or --keep-cells DIR if the cells are kept");
 }
 
 } // namespace
 
 void unreadable_scratch(const fs::path& folder) {
     throw Error(ErrorKind::output, "E-SCRATCH",
-                fmt::format("temporary data in '{}' cannot be read as it was written", folder.string()),
+                fmt::format("temporary data in '{}' differs from the data that was written", folder.string()),
                 "run it again with --scratch DIR on another disk");
 }
 

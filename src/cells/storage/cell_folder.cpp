@@ -21,7 +21,7 @@ constexpr std::string_view lock_name = "facetmill-cells.lock";
 [[noreturn]] void cannot_keep(const fs::path& path, const std::string& why) {
     throw Error(ErrorKind::output, "E-WRITE",
                 fmt::format("cells cannot be kept in '{}': {}", path.string(), why),
-                "--keep-cells DIR names another folder");
+                "give another folder with --keep-cells DIR");
 }
 
 /// The first line of a file: its name, its key and the digest of its contents.
@@ -50,8 +50,8 @@ void CellFolder::take_lock(const std::string& name, Lock how) {
     const int why = errno;
     if (!lock || why != EWOULDBLOCK) cannot_keep(settings_.path, std::strerror(why));
     throw Error(ErrorKind::output, "E-BUSY",
-                fmt::format("another run is at work on the cells in '{}'", settings_.path.string()),
-                "wait for its end, or name another folder with --keep-cells");
+                fmt::format("another run is using the cells in '{}'", settings_.path.string()),
+                "wait until it ends, or give another folder with --keep-cells");
 }
 
 void CellFolder::write(const std::string& name, std::initializer_list<io::Span> pieces) const {

@@ -205,7 +205,7 @@ void write_glb(const Partition& partition, const WritePlace& place, const io::Wr
     const std::uint64_t data = 12 * (partition.vertices() + partition.faces());
     if (headers + document + data > UINT32_MAX)
         throw Error(ErrorKind::limit, "E-SIZE",
-                    fmt::format("a GLB cannot be larger than 4 GiB, and this one would have {} bytes", data),
+                    fmt::format("a GLB cannot be larger than 4 GiB, but this one would have {} bytes", data),
                     "write PLY, simplify first, or split the input");
     ProgressSteps steps({1, 1, 1});
     Transform there; // translation of the origin

@@ -69,7 +69,7 @@ void check_asset(const Json& document) {
     for (std::size_t i = 0; required && i < required->size(); ++i)
         if (!understood(required->at(i).text()))
             required->at(i).fail(
-                fmt::format("the extension \"{}\" is required and not supported", required->at(i).text()),
+                fmt::format("the extension \"{}\" is required but not supported", required->at(i).text()),
                 "E-EXTENSION");
 }
 
@@ -398,7 +398,7 @@ void warn_of_losses(Patch& patch) {
             if (other.contains(list) && !other[list].empty()) lost.push_back(list);
         if (!lost.empty())
             patch.warn("W-MERGED",
-                       fmt::format("of '{}' only the meshes and materials are written, without its {}",
+                       fmt::format("only the meshes and materials of '{}' are written, without its {}",
                                    patch.scene.documents[d]->name, fmt::join(lost, ", ")),
                        fmt::format("load '{}' by itself, and write it to a file of its own to keep them",
                                    patch.scene.documents[d]->name));
@@ -442,7 +442,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Patch patch{skins_moved ? moved : scene, settings, builder, written, base};
     if (settings.draco.on && settings.mesh_manifold)
         patch.warn("W-MANIFOLD",
-                   "EXT_mesh_manifold is not written under Draco, which renumbers what it names");
+                   "EXT_mesh_manifold is not written with Draco, because Draco renumbers the vertices");
     Claims claims = claim_placements(patch, skin_moves);
     ProgressSteps steps({4, 1, 2, 3});
     PartMeshes meshes = patch_meshes(patch, std::move(claims));

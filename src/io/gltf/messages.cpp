@@ -69,7 +69,7 @@ const RegisterMessages gltf_messages{
      "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn instead of the "
      "texture."},
     {"W-TRANSFORM", "A glTF node cannot be moved like its part, or moves separately from its animation.",
-     "Use `merge` before the stage, which makes parts without animation."},
+     "Use `merge` before the stage, because `merge` removes animations."},
 };
 
 } // namespace facetmill

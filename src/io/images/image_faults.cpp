@@ -87,11 +87,12 @@ std::string image_fault(Span bytes) {
 }
 
 Diagnostic warning_of_fault(const std::string& image, const std::string& fault) {
-    return {Severity::warning,
-            "W-IMAGE",
-            fmt::format("the image \"{}\" is written as it is, but viewers cannot show it: {}", image, fault),
-            {},
-            "export the image again"};
+    return {
+        Severity::warning,
+        "W-IMAGE",
+        fmt::format("the image \"{}\" is written unchanged, but viewers cannot show it: {}", image, fault),
+        {},
+        "export the image again"};
 }
 
 } // namespace facetmill::io

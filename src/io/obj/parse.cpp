@@ -380,7 +380,7 @@ class Joiner {
 
     [[noreturn]] void refuse(const char* what, std::int64_t line) {
         malformed(input_.name(), line, "E-OBJ",
-                  fmt::format("{} names a vertex that is not there: the file has {}", what,
+                  fmt::format("{} refers to a vertex that does not exist: the file has {}", what,
                               before_.back().element[0]));
     }
 

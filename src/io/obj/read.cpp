@@ -364,8 +364,9 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
         warn("W-SKIPPED",
              fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")));
     if (s.dangling > 0)
-        warn("W-INDEX", fmt::format("{} corners name a texture point or normal that the file does not have",
-                                    s.dangling));
+        warn("W-INDEX",
+             fmt::format("{} corners refer to a texture point or normal that the file does not have",
+                         s.dangling));
     if (s.short_faces > 0)
         warn("W-FACES", counted(s.short_faces, "face") + " of fewer than three corners skipped");
 }

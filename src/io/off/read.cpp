@@ -96,8 +96,9 @@ struct Builder {
             left + spare)
             malformed(
                 input.name(), line, "E-OFF",
-                fmt::format("{} vertices and {} faces are promised, which the {} bytes left cannot hold",
-                            vertices, faces, left));
+                fmt::format(
+                    "the header gives {} vertices and {} faces, but the remaining {} bytes cannot hold them",
+                    vertices, faces, left));
     }
 
     Scene finish(ReadLog& log) {
@@ -174,7 +175,7 @@ class TextReader {
         for (std::int64_t k = 0; k < n; ++k) {
             const std::int64_t v = text_.integer("a vertex");
             if (v < 0 || v >= vertices)
-                text_.fail(fmt::format("a face names vertex {}, there are {}", v, vertices));
+                text_.fail(fmt::format("a face refers to vertex {}, but the file has {}", v, vertices));
             corners.push_back(static_cast<Index>(v));
         }
         add_face(out_.mesh, corners);
@@ -276,9 +277,9 @@ class BinaryReader {
         for (std::uint32_t k = 0; k < n; ++k) {
             const std::int64_t v = integer();
             if (v < 0 || v >= vertices)
-                malformed(
-                    out_.input.name(), 0, "E-OFF",
-                    fmt::format("a face names vertex {}, there are {}, at byte {}", v, vertices, at_ - 4));
+                malformed(out_.input.name(), 0, "E-OFF",
+                          fmt::format("a face refers to vertex {}, but the file has {}, at byte {}", v,
+                                      vertices, at_ - 4));
             corners.push_back(static_cast<Index>(v));
         }
         add_face(out_.mesh, corners);

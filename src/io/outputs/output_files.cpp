@@ -32,10 +32,10 @@ void cannot_write(const fs::path& target, int error) {
     const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.string());
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
         throw Error(ErrorKind::output, "E-SPACE", fmt::format("no space left to write {}", name),
-                    fmt::format("free some there, or {}", write_elsewhere));
+                    fmt::format("free some space there, or {}", write_elsewhere));
     if (error == EPIPE)
         throw Error(ErrorKind::output, "E-WRITE",
-                    fmt::format("{} cannot be written: its reader went away", name));
+                    fmt::format("{} cannot be written: the program that reads it has ended", name));
     if (error == EISDIR)
         throw Error(ErrorKind::output, "E-DIRECTORY", fmt::format("{} is a directory, expected a file", name),
                     "give the name of a file in it");

@@ -71,7 +71,7 @@ void Outputs::make_directory(const fs::path& directory) {
         if (vanished && attempt < max_attempts) continue;
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
                     fmt::format("the directory '{}' cannot be made: {}", directory.string(),
-                                why == EEXIST ? "a file has its name" : std::strerror(why)),
+                                why == EEXIST ? "a file has this name" : std::strerror(why)),
                     hint_to_write(directory, why));
     }
 }
@@ -139,7 +139,7 @@ namespace {
 [[noreturn]] void refuse_twice(const fs::path& target) {
     throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
                 fmt::format("'{}' is written twice in one run, with different contents", target.string()),
-                "give the second a name or a folder of its own");
+                "give the second output another name or folder");
 }
 
 } // namespace

@@ -79,9 +79,10 @@ struct Body::Reader {
             least += encoding == Encoding::ascii ? 2 : size_of(p.list ? p.count_type : p.type);
         // The last word of a text file may lack a space after it.
         if (least > 0 && e.count > (left() + 1) / least)
-            malformed(input.name(), e.line, "E-PLY",
-                      fmt::format("element '{}' is to have {} items, the {} bytes left hold at most {}",
-                                  e.name, e.count, left(), (left() + 1) / least));
+            malformed(
+                input.name(), e.line, "E-PLY",
+                fmt::format("element '{}' should have {} items, but the remaining {} bytes hold at most {}",
+                            e.name, e.count, left(), (left() + 1) / least));
     }
 
     std::vector<Column> read_ascii(const Element& e);

@@ -102,8 +102,8 @@ void Builder::set_faces() {
         while (column.begin(f) + column.size(f) <= bad) ++f;
         const auto index =
             std::visit([&](const auto& values) { return static_cast<double>(values[bad]); }, column.values);
-        fail(*faces_.element,
-             fmt::format("face {} of {} names vertex {}, there are {}", f, faces, index, vertices));
+        fail(*faces_.element, fmt::format("face {} of {} refers to vertex {}, but the file has {}", f, faces,
+                                          index, vertices));
     }
     if (column.offsets.empty() && column.each == 3) return;
     mesh_.face_offsets.resize(faces + 1);
@@ -125,8 +125,9 @@ void Builder::set_lines() {
                 for (std::size_t i = 0; i < edges_.count(); ++i) {
                     const auto v = static_cast<double>(values[i]);
                     if (!(v >= 0 && v < static_cast<double>(mesh_.vertex_count())))
-                        fail(*edges_.element, fmt::format("edge {} of {} names vertex {}, there are {}", i,
-                                                          edges_.count(), v, mesh_.vertex_count()));
+                        fail(*edges_.element,
+                             fmt::format("edge {} of {} refers to vertex {}, but the file has {}", i,
+                                         edges_.count(), v, mesh_.vertex_count()));
                     mesh_.lines[2 * i + end] = static_cast<Index>(values[i]);
                 }
             },
@@ -152,8 +153,8 @@ void Builder::add_strips() {
             const auto index =
                 std::visit([&](const auto& values) { return static_cast<double>(values[i]); }, column.values);
             if (!(index < static_cast<double>(mesh_.vertex_count())))
-                fail(*strips_.element,
-                     fmt::format("a strip names vertex {}, there are {}", index, mesh_.vertex_count()));
+                fail(*strips_.element, fmt::format("a strip refers to vertex {}, but the file has {}", index,
+                                                   mesh_.vertex_count()));
             if (index < 0) {
                 a = b = none;
                 turned = false;

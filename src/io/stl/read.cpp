@@ -183,10 +183,11 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                                             bytes.size() - head - n * record, n),
                                 file_mark(input.name()), ""});
     if (n != promised_triangles(bytes))
-        log.warnings.push_back({Severity::warning, "W-COUNT",
-                                fmt::format("the head counts {} triangles, and the file has {}: all are read",
-                                            promised_triangles(bytes), n),
-                                file_mark(input.name()), "", false});
+        log.warnings.push_back(
+            {Severity::warning, "W-COUNT",
+             fmt::format("the header counts {} triangles, but the file has {}: all are read",
+                         promised_triangles(bytes), n),
+             file_mark(input.name()), "", false});
     check_count(input, settings, 3 * n);
     Part part;
     const Records records(input, bytes.subspan(head, n * record));
@@ -284,8 +285,8 @@ std::uint32_t held_triangles(const Input& input) {
         return static_cast<std::uint32_t>(held);
     if (n > held)
         malformed(input.name(), 0, "E-STL",
-                  fmt::format("the file is to have {} triangles and ends in triangle {}, at byte {}", n, held,
-                              bytes));
+                  fmt::format("the file should have {} triangles, but ends in triangle {}, at byte {}", n,
+                              held, bytes));
     return n;
 }
 

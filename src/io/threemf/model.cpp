@@ -193,7 +193,7 @@ class ModelReader {
             if (space != material_space && space != production_space && space != core_space)
                 malformed(
                     name_, static_cast<int>(std::min<std::size_t>(e.line, INT32_MAX)), "E-EXTENSION",
-                    fmt::format("the extension '{}' ({}) is required and not supported", prefix, space));
+                    fmt::format("the extension '{}' ({}) is required but not supported", prefix, space));
         }
     }
 
@@ -275,8 +275,8 @@ class ModelReader {
         for (std::size_t c = 0; c < object.corners.size(); ++c)
             if (object.corners[c] >= object.positions.size())
                 malformed(name_, 0, "E-3MF",
-                          fmt::format("triangle {} of object {} names vertex {}, there are {}", c / 3, id,
-                                      object.corners[c], object.positions.size()));
+                          fmt::format("triangle {} of object {} refers to vertex {}, but the object has {}",
+                                      c / 3, id, object.corners[c], object.positions.size()));
         std::set<std::uint32_t> missing;
         check(id, object.properties, none, missing);
         for (const Properties& p : object.triangles) check(id, p, object.properties.group, missing);
@@ -295,7 +295,7 @@ class ModelReader {
         for (const std::uint32_t index : p.index)
             if (index != none && index >= group->second.colours.size())
                 malformed(name_, 0, "E-3MF",
-                          fmt::format("object {} names property {} of group {}, which has {}", id, index,
+                          fmt::format("object {} refers to property {} of group {}, which has {}", id, index,
                                       group->first, group->second.colours.size()));
     }
 

@@ -127,8 +127,8 @@ Scene read_tile(const Input& input, const Content& content, const ReadSettings& 
     const Input file = file_below(input, content.uri, content.place);
     if (!gltf::is_glb(file.bytes()))
         throw Error(ErrorKind::malformed, "E-TILESET",
-                    fmt::format("{}: '{}' is no GLB, and other contents of tiles are not read", content.place,
-                                content.uri),
+                    fmt::format("{}: '{}' is not a GLB, and facetmill reads no other contents of tiles",
+                                content.place, content.uri),
                     "load the files one by one");
     ReadSettings inner = settings;
     inner.unit.reset();

@@ -99,8 +99,8 @@ void keep_thickness(Scene& scene, const std::vector<bool>& chosen, Context& cont
         growth[i].mesh = io::length_growth(part.transform);
         if (!is_similarity(part.transform))
             context.warn("W-VOLUME",
-                         fmt::format("merge: the scale of part '{}' differs by direction, so its "
-                                     "thickness becomes the mean of three",
+                         fmt::format("merge: the scale of part '{}' differs by direction, so the thickness "
+                                     "of its volume uses the mean of the three scales",
                                      part.name),
                          "leave it out with `only`");
     }

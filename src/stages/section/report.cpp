@@ -48,7 +48,7 @@ void add_volume(SectionReport& report, double spacing, std::optional<double> vol
     if (volume && *volume != 0) report.ratio = *report.area_times_spacing / *volume;
 }
 
-constexpr const char* hint_for_open = "take the lines alone of a terrain or a sheet, which has no inside, or "
+constexpr const char* hint_for_open = "use only the lines of a terrain or a sheet, which has no inside, or "
                                       "make it a solid with thicken; close the "
                                       "holes of a solid with clean: {holes: minimal}";
 
@@ -64,7 +64,7 @@ void warn_of_clockwise(const SectionReport& report, bool closed, Context& contex
                      "use orient first");
     else if (report.open == 0)
         context.warn("W-OPEN-SECTION",
-                     fmt::format("{} {}: the mesh is open, so the area may mean nothing", outlines, runs),
+                     fmt::format("{} {}: the mesh is open, so the area may be meaningless", outlines, runs),
                      hint_for_open);
 }
 

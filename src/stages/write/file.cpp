@@ -137,24 +137,27 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
                             : target.up;
     const io::Conversion done = io::convert(scene, target);
     if (done.unit_guessed)
-        context.warn("W-UNITS",
-                     fmt::format("the scene has no unit: '{}' gets its numbers unchanged, and {} means {}",
-                                 o.path.text, codec.name, to_string(target.unit)),
-                     "give both when you load it: load: {path: ..., unit: mm, up: z}, or -D unit=mm -D up=z "
-                     "for a built-in pipeline");
+        context.warn(
+            "W-UNITS",
+            fmt::format("the scene has no unit: '{}' has the same numbers, but programs read {} in {}",
+                        o.path.text, codec.name, to_string(target.unit)),
+            "give unit and up axis when you load the mesh: load: {path: ..., unit: mm, up: z}, or -D unit=mm "
+            "-D "
+            "up=z for a built-in pipeline");
     if (scene.parts.empty() && (done.factor != 1 || done.turned))
         context.warn("W-TRANSFORM",
                      fmt::format("the scene has no meshes: the nodes in '{}' keep the numbers of the input",
                                  o.path.text),
                      "load it without unit and up");
     if (seen != target.up)
-        context.warn("W-UP",
-                     fmt::format("the scene has no up axis: '{}' keeps its axes, and {} means {} up, but the "
-                                 "mesh seems to have {} up",
-                                 o.path.text, codec.name, to_string(target.up), to_string(seen)),
-                     fmt::format("give it when you load it: load: {{path: ..., up: {}}}, or -D up={} of a "
-                                 "built-in pipeline; up: {} if it does not lie on its side",
-                                 to_string(seen), to_string(seen), to_string(target.up)));
+        context.warn(
+            "W-UP",
+            fmt::format("the scene has no up axis: '{}' keeps its axes, but programs read {} with {} up, and "
+                        "in this mesh {} seems to be up",
+                        o.path.text, codec.name, to_string(target.up), to_string(seen)),
+            fmt::format("give the up axis when you load the mesh: load: {{path: ..., up: {}}}, or -D up={} "
+                        "for a built-in pipeline; up: {} if the mesh does not lie on its side",
+                        to_string(seen), to_string(seen), to_string(target.up)));
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
 }

@@ -11,7 +11,7 @@ const RegisterMessages write_messages{
     {"W-ORIGIN",
      "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
      "position it.",
-     "If you need the new origin, use `merge` before `write` to make parts without skins and animations."},
+     "If you need the new origin, use `merge` before `write`, because it removes skins and animations."},
     {"W-ROUNDED",
      "Rounding or a limit of the format gave a written file more defects than the scene. Or it moved points "
      "by more than a millionth of the diagonal.",

@@ -90,7 +90,7 @@ std::optional<OriginReport> move_origin(Scene& scene, const OriginOption& option
                      fmt::format("{} with skins, animations or instances keep{} the origin: {}",
                                  counted(kept.size(), "part"), kept.size() == 1 ? "s" : "",
                                  fmt::join(kept, ", ")),
-                     "use merge before write, which makes parts without skins and animations");
+                     "use merge before write, because merge removes skins and animations");
     if (chosen.empty()) return {};
     OriginReport report{option.kind == Kind::point ? option.point : near_centre(box), chosen.size()};
     const auto first = DistinctParts(scene).first; // uses the meshes before the move; equal meshes stay equal

@@ -217,7 +217,7 @@ TEST_CASE("glTF that must not be read is refused with the place", "[io]") {
           "malformed [E-VERSION] test: at byte 4: expected GLB version 2, found version 1 | convert it to "
           "glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf");
     CHECK(refuse(head + R"("extensionsRequired":["XX_other"]})") ==
-          "malformed [E-EXTENSION] test: extensionsRequired[0]: the extension \"XX_other\" is required and "
+          "malformed [E-EXTENSION] test: extensionsRequired[0]: the extension \"XX_other\" is required but "
           "not supported");
     CHECK(refuse(head + R"("nodes":[{"children":[1]},{"children":[0]}]})") ==
           "malformed [E-NODES] test: nodes[0]: the node is its own ancestor");
@@ -225,7 +225,7 @@ TEST_CASE("glTF that must not be read is refused with the place", "[io]") {
           "malformed [E-GLTF] test: meshes[0].primitives[0].attributes.POSITION: refers to accessor 7, but "
           "there are 0");
     const std::string
-        inside = "only relative URIs to files beside or below the glTF are read",
+        inside = "only relative URIs to files in the glTF's folder or below are read",
         below = "--asset-root .., or load: {path: ..., asset_root: ..}, allows the files below that "
                 "folder";
     for (const auto& [uri, hint] : {std::pair("/etc/passwd", inside),

@@ -98,14 +98,13 @@ TEST_CASE("targets that cannot be written are refused before anything is", "[io]
               "output [E-DIRECTORY] '{}' is a directory, expected a file | give the name of a file in it",
               (dir / "folder").string()));
     CHECK(failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
-          fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name | write "
+          fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has this name | write "
                       "elsewhere: under another path, or (run, batch, pipe) with another --output-dir",
                       (dir / "file").string()));
     outputs.add(dir / "once", bytes_of("x"));
     CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
           fmt::format("output [E-DUPLICATE-OUTPUT] '{}' is written twice in one run, with different contents "
-                      "| give the "
-                      "second a name or a folder of its own",
+                      "| give the second output another name or folder",
                       (dir / "folder/../once").string()));
     CHECK(outputs.add(dir / "folder/../once", bytes_of("x")).target == dir / "once"); // a shared texture
 }
@@ -126,7 +125,7 @@ TEST_CASE("a full device is told from other failures", "[io]") {
     Outputs outputs;
     outputs.add("/dev/full", bytes_of("x"));
     CHECK(failure([&] { outputs.commit(); }) ==
-          "output [E-SPACE] no space left to write '/dev/full' | free some there, or "
+          "output [E-SPACE] no space left to write '/dev/full' | free some space there, or "
           "write elsewhere: under another path, or (run, batch, pipe) with another --output-dir");
 }
 

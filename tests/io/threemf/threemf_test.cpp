@@ -375,7 +375,8 @@ TEST_CASE("a broken 3MF is refused with its place", "[io]") {
     const std::pair<std::string, std::string> cases[] = {
         {with("x=\"1\"", "x=\"one\""), place + ":2: <vertex> has x='one', expected a number"},
         {with("x=\"1\"", ""), place + ":2: <vertex> has no attribute 'x'"},
-        {with("v2=\"1\"", "v2=\"3\""), place + ": triangle 0 of object 1 names vertex 3, there are 3"},
+        {with("v2=\"1\"", "v2=\"3\""),
+         place + ": triangle 0 of object 1 refers to vertex 3, but the object has 3"},
         {with("v2=\"1\"", "v2=\"-1\""),
          place + ":3: <triangle> has v2='-1', expected a whole number from 0 on"},
         {with("objectid=\"1\"", "objectid=\"2\""), "a.3mf: there is no object 2 in '/3D/3dmodel.model'"},
@@ -396,7 +397,7 @@ TEST_CASE("a broken 3MF is refused with its place", "[io]") {
           "malformed [E-3MF] " + place + ":1: elements are nested deeper than 64 levels");
     CHECK(refused(archive(model(object, item, "xmlns:v=\"urn:volumes\" requiredextensions=\"v\""))) ==
           "malformed [E-EXTENSION] " + place +
-              ":2: the extension 'v' (urn:volumes) is required and not supported");
+              ":2: the extension 'v' (urn:volumes) is required but not supported");
     CHECK(refused(archive(model(
               "<object id=\"1\"><components><component objectid=\"1\"/></components></object>", item))) ==
           "malformed [E-3MF] a.3mf: object 1 is a component of itself, or nested deeper than 32 levels");

@@ -354,11 +354,12 @@ Bytes Builder::build_buffer(std::vector<Diagnostic>& warnings) {
         buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     }
     if (decompressed && !meshopt_.on)
-        warnings.push_back({Severity::warning,
-                            "W-MESHOPT",
-                            "the meshopt compression of the input is not written: the data is stored plain",
-                            {},
-                            "write: {meshopt: true} compresses it"});
+        warnings.push_back(
+            {Severity::warning,
+             "W-MESHOPT",
+             "the meshopt compression of the input is not written: the data is stored uncompressed",
+             {},
+             "write: {meshopt: true} compresses it"});
     for (const char* name : meshopt_names) drop_extension(name);
     if (unpacked_bytes_ > 0) use_extension(name_of(meshopt_), true);
     return buffer;

@@ -286,7 +286,7 @@ fs::path buffer_path(const JsonCursor& buffer, const std::string& uri, const Inp
     const std::string hint = hint_for_asset_root(input, relative);
     throw Error(ErrorKind::malformed, "E-URI",
                 fmt::format("{}.uri: \"{}\" is not a file in the document's directory", buffer.path(), uri),
-                hint.empty() ? "only relative URIs to files beside or below the glTF are read" : hint);
+                hint.empty() ? "only relative URIs to files in the glTF's folder or below are read" : hint);
 }
 
 std::vector<fs::path> neighbours(const Json& document, const char* list) {

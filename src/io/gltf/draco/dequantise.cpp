@@ -20,7 +20,7 @@ constexpr ::draco::GeometryAttribute::Type kept_quantised[] = {::draco::Geometry
 
 [[noreturn]] void fail() {
     throw Error(ErrorKind::malformed, "E-DRACO",
-                "the Draco data cannot be decoded: what its numbers are steps of makes no sense");
+                "the Draco data cannot be decoded: its quantization parameters are invalid");
 }
 
 std::int32_t whole_number(const ::draco::PointAttribute& attribute, std::size_t value, int component) {

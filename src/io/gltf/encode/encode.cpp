@@ -426,7 +426,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
                          settings.name, out.dropped_faces, out.dropped_faces == 1 ? " is" : "s are",
                          out.dropped_faces == 1 ? "it" : "them"),
              {},
-             "draco: {degenerate_faces: keep} keeps them in a primitive of their own"});
+             "draco: {degenerate_faces: keep} keeps them in a separate primitive"});
     return out;
 }
 

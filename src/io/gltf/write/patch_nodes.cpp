@@ -368,8 +368,7 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
     if (linked > 0)
         patch.builder.use_extension("MSFT_lod", false);
     else
-        patch.warn("W-LODS",
-                   "there are no levels of detail to write: no part is called X.lod1 beside a part X",
+        patch.warn("W-LODS", "there are no levels of detail to write: no two parts are called X and X.lod1",
                    "simplify: {lods: [100%, 25%, 5%]} makes them");
 }
 

@@ -166,7 +166,7 @@ TEST_CASE("a broken image is told where it is written, once", "[io]") {
         for (const Diagnostic& d : written(scene, format).warnings) all.push_back(d.id + ": " + d.message);
         return all;
     };
-    const std::vector<std::string> once{"W-IMAGE: the image \"wood.png\" is written as it is, but viewers "
+    const std::vector<std::string> once{"W-IMAGE: the image \"wood.png\" is written unchanged, but viewers "
                                         "cannot show it: its data end early"};
     put(dir / "wood.png", cut);
     CHECK(told("wood.png", "glb") == once);
