@@ -98,7 +98,7 @@ class FileOwners {
     void check_input(const fs::path& input, const std::string& reader) {
         if (input != "-") return check_read(input, reader);
         problems_.add({}, "E-DUPLICATE-INPUT", "standard input cannot be read by each asset",
-                      "give the file by a param, or its name in the pipeline");
+                      "give the file as a param, or by its path in the pipeline");
     }
 
     /// Adds a problem if an asset would write this input file.
@@ -146,9 +146,10 @@ class FileOwners {
             return "the input names differ only in case: rename or exclude one of them";
         if (are_two && one.filename() != other.filename() && lower(one.stem()) == lower(other.stem()))
             return "the input names differ only in the suffix: use write: \"${input.name}.glb\" to keep the "
-                   "suffix; to exclude files that are not meshes, give it in the pattern: --input "
+                   "suffix; to exclude files that are not meshes, give the suffix in the pattern: --input "
                    "'scans/**/*.ply'";
-        return "name outputs by a param that differs: write: \"${input.stem}.glb\"; --base sets the folder "
+        return "use a param that differs between assets in the output names: write: \"${input.stem}.glb\"; "
+               "--base sets the folder "
                "that is mirrored";
     }
 

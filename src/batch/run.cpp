@@ -308,13 +308,13 @@ class BatchRun {
             throw Error(
                 ErrorKind::output, "E-OVERWRITE",
                 fmt::format("'{}' would overwrite an input of {}", file.target.string(), source->second),
-                "write elsewhere with --output-dir, or name it by the asset: ${input.stem}");
+                "write elsewhere with --output-dir, or use the name of the asset: ${input.stem}");
         const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
         if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
         throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
                     fmt::format("'{}' is also written for {}, with different contents", file.target.string(),
                                 first->second.first),
-                    "name it by the asset: ${input.stem}");
+                    "use the name of the asset: ${input.stem}");
     }
 
     /// The outputs that the assets have or would have after a run, and the outputs of other pipelines.

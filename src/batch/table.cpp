@@ -93,7 +93,8 @@ class CsvReader {
 std::vector<Row> csv_rows(const std::shared_ptr<const SourceText>& source) {
     CsvReader reader(source);
     std::vector<Cell> heading, record;
-    if (!reader.next(heading)) refuse_table({source}, "the table is empty", "its first line names params");
+    if (!reader.next(heading))
+        refuse_table({source}, "the table is empty", "its first line must list params");
     std::set<std::string> names;
     for (const auto& cell : heading) {
         if (cell.text.empty()) refuse_table(cell.where, "a column has no name");

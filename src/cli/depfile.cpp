@@ -14,7 +14,7 @@ std::string make_escaped(const std::string& path, bool target) {
     for (const char c : path) {
         if (c == '\n' || c == '\r')
             throw Error(ErrorKind::output, "E-DEPFILE",
-                        "a depfile cannot name a path with a line break: " + path,
+                        "a depfile cannot contain a path with a line break: " + path,
                         "rename the file: Make and Ninja cannot express this path");
         // Make ends the targets at a colon, and takes a % in a target for a pattern. Backslashes before an
         // escaped character are doubled; elsewhere they are plain.

@@ -287,7 +287,7 @@ Command info_command() {
                     .followed_by("FILE.png");
                 arguments
                     .add("--format", &options->format,
-                         "Reads the files in this format, whatever their content.")
+                         "Reads the files in this format, regardless of their content.")
                     .one_of(io::names_of_readers());
                 add_threads_option(arguments, options->threads, "The number of threads. Default: all cores.");
                 add_asset_root_option(arguments, options->asset_roots);

@@ -45,7 +45,7 @@ stages:
     ensure: {deviation: 2%}        # a contract, checked right after the stage: exit code 1 if it does not hold
   - write: "${input.stem}.glb"     # written only if the whole run succeeds
 
-report: "${input.stem}.html"       # what was done, and whether the result is sound
+report: "${input.stem}.html"       # the steps, and whether the result is sound
 )";
 
 struct NewOptions {

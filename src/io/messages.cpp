@@ -70,8 +70,8 @@ const RegisterMessages io_messages{
      "Write glTF to keep them. OBJ keeps materials of lines, and OBJ and 3MF keep materials of faces."},
     {"W-MERGED",
      "When several glTF documents are written to one file, only their meshes and materials are kept.",
-     "Load the file that the message names by itself, and write it to a file of its own, if you need its "
-     "animations or cameras."},
+     "If you need the animations or cameras of the file in the message, load it alone and write it to a "
+     "separate file."},
     {"W-NAME",
      "The name of a part or material has control characters, such as a line end, that the format does not "
      "allow in names. They are replaced by blanks or the sign for unknown characters.",

@@ -33,7 +33,7 @@ const std::vector<OtherFormat>& other_formats() {
           "x_b", "fcstd", "sat", "3dm", "dwg", "ifc", "f3d"},
          "a CAD file of curved surfaces or solids, not a mesh",
          "export a mesh (.stl, .3mf or .obj) from the CAD program, or with FreeCAD or Gmsh",
-         "a mesh is no CAD solid: write .stl or .3mf, which CAD programs import as a mesh"},
+         "a mesh is not a CAD solid: write .stl or .3mf, which CAD programs import as a mesh"},
         {{"scad"}, "an OpenSCAD program", "openscad -o part.3mf part.scad makes a mesh of it", ""},
         {{"xyz", "pts", "ptx", "asc", "las", "laz", "e57", "pcd"},
          "a cloud of points",

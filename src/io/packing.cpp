@@ -61,7 +61,7 @@ struct Inflate final : Unpacker {
         format = header ? "gzip" : "deflate";
         tool = header ? "gzip -d" : "unzip";
         if (::inflateInit2(&z, header ? 15 + 16 : -15) != Z_OK)
-            throw out_of_memory("no memory to inflate a file");
+            throw out_of_memory("not enough memory to decompress a file");
     }
     Inflate(const Inflate&) = delete;
     Inflate& operator=(const Inflate&) = delete;

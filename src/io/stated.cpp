@@ -99,8 +99,8 @@ void take_stated(Scene& scene, const Stated& stated, const std::string& file, co
     const auto warn = [&](const char* id, std::string_view what, const std::string& value, std::string hint) {
         constexpr std::size_t most = 40; // characters of a comment shown in a message
         log.warnings.push_back({Severity::warning, id,
-                                fmt::format("'{}' states the {} '{}', which is none: it does not count", file,
-                                            what, one_line(value.substr(0, most))),
+                                fmt::format("'{}' states the {} '{}', which is unknown and therefore ignored",
+                                            file, what, one_line(value.substr(0, most))),
                                 file_mark(file), std::move(hint), false});
     };
     if (!stated.no_unit.empty() && !settings.unit)

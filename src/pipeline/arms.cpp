@@ -58,7 +58,7 @@ void Planner::plan_branch(Step& step, const Value::Entry& entry, const Scope& sc
     }
     for (const auto& arm : entry.value.entries) {
         if (arm.key.empty() || arm.key.find_first_of("./[]") != std::string::npos)
-            problems_.add(arm.key_mark, "E-NAME", fmt::format("'{}' cannot name a branch", arm.key),
+            problems_.add(arm.key_mark, "E-NAME", fmt::format("'{}' cannot be the name of a branch", arm.key),
                           "a name has no . / [ ]");
         bool arm_has_scene = has_scene;
         const Position position{fmt::format("{}.{}", inner.path, arm.key),
@@ -120,7 +120,7 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
         return;
     }
     if (!body) {
-        problems_.add(entry.key_mark, "E-MISSING", "foreach: 'do' is needed, the stages for each value",
+        problems_.add(entry.key_mark, "E-MISSING", "foreach needs 'do', the stages for each value",
                       "- foreach: {lod: [50%, 25%]}\n      do: [{simplify: \"${lod}\"}]");
         return;
     }
@@ -131,7 +131,7 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
                           fmt::format("a variable '{}' already exists", variable.key));
         else if (!is_variable_name(variable.key))
             problems_.add(variable.key_mark, "E-NAME",
-                          fmt::format("'{}' cannot name a variable", variable.key));
+                          fmt::format("'{}' cannot be the name of a variable", variable.key));
         if (variable.key == "part") {
             over_parts = true;
             OptionType<std::vector<std::string>>::parse(variable.value, step.parts.patterns, problems_);

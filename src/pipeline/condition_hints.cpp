@@ -86,9 +86,9 @@ std::optional<MeantCondition> of_property(std::string_view name, std::string_vie
                                           std::string_view value) {
     const auto meant = bound_of(name, op, value);
     if (!meant) return {};
-    return MeantCondition{fmt::format("'{}' is a property of the scene, which is not compared by an operator",
-                                      meant->property->name),
-                          fmt::format("write when: {{{}: {}}}", meant->property->name, shown(*meant))};
+    return MeantCondition{
+        fmt::format("'{}' is a property of the scene, which operators cannot compare", meant->property->name),
+        fmt::format("write when: {{{}: {}}}", meant->property->name, shown(*meant))};
 }
 
 /// The bound for a single condition: a comparison with the property on either side, or only a property.
@@ -176,7 +176,7 @@ std::optional<MeantCondition> meant_conditions(std::string_view text) {
     }
     const bool any = split_at(text, {"||", " or ", " OR "}).size() > 1;
     return MeantCondition{
-        "several conditions in one text, which are the entries of a map here",
+        "several conditions in one text, but here each condition is an entry of a map",
         any ? fmt::format("write when: {{{}}} where all must hold; there is no 'or'", as_map(all))
             : fmt::format("write when: {{{}}}, all of which must hold", as_map(all))};
 }

@@ -192,7 +192,7 @@ class Builder : public YAML::EventHandler {
         while (at < text.size() && text[at] == '&')
             at = std::min(text.find_first_not_of(' ', text.find(' ', at)), text.size());
         problems_.add(source_.mark(at, source_.characters(at, std::min(at + tag.size(), text.size()))),
-                      "E-YAML", fmt::format("the tag {} has no meaning here", tag), tag_hint(tag));
+                      "E-YAML", fmt::format("the tag {} is not supported here", tag), tag_hint(tag));
     }
 
     /// Counts values before they are added.

@@ -96,7 +96,7 @@ bool Planner::may_include(const fs::path& file, const Mark& where) {
     problems_.add(
         where, "E-INCLUDE",
         fmt::format("'{}' is included through more than {} other files", file.string(), longest_chain),
-        "include it from a file that is nearer to the pipeline");
+        "reduce the number of files between the pipeline and this include");
     return false;
 }
 

@@ -84,7 +84,7 @@ Declaration param_declaration() {
     Declare<ParamOptions> d;
     d.choice("type", &ParamOptions::type, types, "What the parameter holds").required().primary();
     d.choice("of", &ParamOptions::of, single_types(),
-             "What each value of a list is; by default as it is written");
+             "The type of each value of a list. By default, it follows from the text of the value");
     d.option("help", &ParamOptions::help, "What the parameter is for");
     d.option("required", &ParamOptions::required, "Whether it must be given");
     d.option("min", &ParamOptions::min, "The least value");
@@ -174,7 +174,8 @@ class Params {
 
     void add(const Value::Entry& entry, Json& json) {
         if (!is_variable_name(entry.key))
-            problems_.add(entry.key_mark, "E-PARAM", fmt::format("'{}' cannot name a parameter", entry.key),
+            problems_.add(entry.key_mark, "E-PARAM",
+                          fmt::format("'{}' cannot be the name of a param", entry.key),
                           "a name consists of letters, digits, _ and -, and begins with a letter");
         static const Declaration declaration = param_declaration();
         ParamOptions options;
@@ -210,7 +211,8 @@ class Params {
         };
         const Type single = options.single();
         if (!options.is_list() && entry.value.is_map() && entry.value.find("of"))
-            refuse("of", fmt::format("'{}' is one value, so it is not of others", entry.key), "type: list");
+            refuse("of", fmt::format("'{}' is a single value, so it cannot have 'of'", entry.key),
+                   "type: list");
         if (!options.choices.empty() && single != Type::choice)
             refuse("choices", fmt::format("'{}' has choices, but its type is not choice", entry.key),
                    options.is_list() ? "of: choice" : "type: choice");
@@ -219,8 +221,8 @@ class Params {
         for (const auto& [key, limit] : {std::pair{"min", &options.min}, std::pair{"max", &options.max}})
             if (*limit && !limited)
                 refuse(key, fmt::format("'{}' has no order that {} could limit", entry.key, key),
-                       options.is_list() ? "leave it out, or say of: number"
-                                         : "leave it out, or say type: number");
+                       options.is_list() ? "leave it out, or write of: number"
+                                         : "leave it out, or write type: number");
         if (!good || !options.min || !options.max) return good;
         bool readable = true;
         const auto min = checked(single, Value::scalar(*options.min, place("min")), readable, problems_);

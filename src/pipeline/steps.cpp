@@ -139,7 +139,7 @@ bool Planner::count_step(const Mark& where) {
     if (++steps_ <= max_steps) return true;
     problems_.add(where, "E-FOREACH",
                   fmt::format("with every foreach expanded, the pipeline has more than {} stages", max_steps),
-                  "foreach inside foreach multiplies; take fewer values");
+                  "a foreach inside a foreach multiplies the stages; use fewer values");
     return false;
 }
 
@@ -215,7 +215,7 @@ void Planner::name_step(Step& step, const Value* given, const Scope& scope, cons
     if (given) {
         OptionType<std::string>::parse(resolved(*given, scope, problems_), name, problems_);
         if (name.empty() || name.find_first_of("./[]") != std::string::npos)
-            problems_.add(given->mark, "E-NAME", fmt::format("'{}' cannot name a stage", name),
+            problems_.add(given->mark, "E-NAME", fmt::format("'{}' cannot be the name of a stage", name),
                           "a name has no . / [ ]");
     }
     step.name = unique_name(name, position.prefix, given ? given->mark : Mark{});
@@ -226,7 +226,7 @@ void Planner::read_only(const Value& only, const Scope& scope, PartFilter& filte
     const Value names = resolved(only, scope, problems_);
     OptionType<std::vector<std::string>>::parse(names, filter.patterns, problems_);
     if (names.is_list() && names.items.empty())
-        problems_.add(only.mark, "E-MISSING", "'only' names no part or material",
+        problems_.add(only.mark, "E-MISSING", "'only' lists no part or material",
                       "only: wheel, only: [\"tree*\", \"!tree_9\"], or leave it out for all");
 }
 

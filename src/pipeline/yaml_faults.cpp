@@ -39,7 +39,7 @@ std::string bare_item_hint(const std::string& text, std::size_t at) {
     std::string above = line_of(text, line - 1);
     above.erase(0, above.find_first_not_of(' '));
     if (!above.starts_with("- ") || above.find_first_of(":{}[]\"'#") != std::string::npos) return {};
-    return fmt::format("a stage with further keys needs a colon: '{}:' in the line above", above);
+    return fmt::format("a stage with more keys needs a colon: write '{}:' in the line above", above);
 }
 
 /// A hint for a quoted text that ended unexpectedly, just before byte `at`.
@@ -49,8 +49,9 @@ std::string quote_hint(const SourceIndex& source, const Extent& quoted, std::siz
     if (between.find_first_not_of(" ,:") != std::string_view::npos) return {};
     const std::string_view inside = std::string_view(text).substr(quoted.begin, quoted.end - quoted.begin);
     if (inside.find('\n') != std::string_view::npos)
-        return fmt::format("the quote that opens in line {} is closed by this one: close it in its own line",
-                           source.mark(quoted.begin).line);
+        return fmt::format(
+            "this quote closes the quote that opens in line {}: close that quote in its own line",
+            source.mark(quoted.begin).line);
     if (at != quoted.end) return {};
     return text[quoted.begin] == '\'' ? "inside '...' a ' is written '', or take \"...\""
                                       : "inside \"...\" a \" is written \\\"";
@@ -73,7 +74,7 @@ Said in_words(const std::string& said) {
     if (said == "end of sequence flow not found")
         return {"expected ',' or ']' here", "a text with special characters must be quoted"};
     if (said == "illegal map value")
-        return {"unexpected ':'", "quote a text that holds ': ', and mind the indentation"};
+        return {"unexpected ':'", "quote texts that contain ': ', and check the indentation"};
     if (said == "end of map not found") return {"expected a key of the map here", "mind the indentation"};
     if (said == "end of sequence not found")
         return {"expected an item of the list ('- ...') here", "mind the indentation"};

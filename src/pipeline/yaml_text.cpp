@@ -67,7 +67,7 @@ bool check_text(const SourceIndex& source, Problems& problems) {
             problems.add(where, "E-YAML",
                          length == 0
                              ? fmt::format("the byte 0x{:02x} is not UTF-8", byte)
-                             : fmt::format("the control character 0x{:02x} may not be in a pipeline", byte),
+                             : fmt::format("a pipeline cannot contain the control character 0x{:02x}", byte),
                          hint("a pipeline is a text in UTF-8"));
             return false;
         }

@@ -245,7 +245,8 @@ std::string sandbox_hint(const fs::path& file, int error) {
     if (files_version == 0 || error != EACCES) return {};
     const bool there = ::access(file.c_str(), F_OK) == 0;
     const bool permitted = there ? may_read(file) : may_write(nearest_existing(file));
-    return permitted ? "the plan does not name it, so the sandbox refuses it: --no-sandbox runs without one"
+    return permitted ? "the plan does not list it, so the sandbox refuses it: use --no-sandbox to run "
+                       "without the sandbox"
                      : "";
 }
 

@@ -92,9 +92,9 @@ class Cells(LargeCase):
                  ("clean --weld near --tolerance 1%", "clean: weld: near moves vertices", "exact does not"),
                  ("clean --t_junctions near --tolerance 1%", "clean: t_junctions: near moves vertices", "remove that option"),
                  ("clean --holes minimal", "clean: holes: whether a patch meets other faces", "remove that option"),
-                 ("clean --self_intersections union", "clean: self_intersections are between faces anywhere", "remove that option"),
-                 ("clean --components.keep 1", "clean: components: what hangs together", "remove that option"),
-                 ("clean --inner_components", "clean: inner_components: what hangs together", "remove that option"),
+                 ("clean --self_intersections union", "clean: self_intersections needs the whole mesh", "remove that option"),
+                 ("clean --components.keep 1", "clean: components: connected components", "remove that option"),
+                 ("clean --inner_components", "clean: inner_components: connected components", "remove that option"),
                  ("clean --precision single", "clean: precision: single moves vertices", "remove that option"),
                  ("orient", "'orient' cannot work", "(clean, clip, crumple, load, measure, section, simplify, split, transform, validate, write can)"))
         for stages, message, way_out in cases:
@@ -104,7 +104,7 @@ class Cells(LargeCase):
             self.assertIn(message, run.stderr)
             self.assertIn(way_out, run.stderr)
         self.mill("pipe", "load", "large.ply", "!", "write", "small.drc")
-        self.assertIn("not read in pieces", self.mill("pipe", "--memory", "1M", "load", "small.drc", "!", "simplify", "10%",
+        self.assertIn("cannot be read in pieces", self.mill("pipe", "--memory", "1M", "load", "small.drc", "!", "simplify", "10%",
                                                       "!", "write", "o.ply", expect=2).stderr)
         self.assertIn("E-MEMORY", self.mill("pipe", "--memory", "30M", "load", "large.ply", "!", "simplify", "90%", "!",
                                             "write", "o.ply", expect=7).stderr)

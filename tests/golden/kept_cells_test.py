@@ -131,7 +131,7 @@ class KeptCells(LargeCase):
             for path in (simplified[-1], simplified[0]):
                 self.flip(path, at)
             run = self.keep()
-            self.assertIn("not as written: made again", run.stderr)
+            self.assertIn("damaged and made again", run.stderr)
             self.assertEqual(self.result(), expected)
             self.keep()  # leaves below those that are there are not looked at
         for path in (self.kept / RECORDS, self.kept / BORDERS, simplified[-1]):

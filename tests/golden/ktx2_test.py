@@ -189,7 +189,7 @@ class Ktx2(Case):
         for env in ({"FACETMILL_KTX": "nowhere/ktx"}, {"FACETMILL_KTX": str(self.dir / "t.bin")}):
             told = self.run_it(expect=2, env=env).stderr
             self.assertIn("E-KTX", told)
-            self.assertIn("FACETMILL_KTX does not name a program", told)
+            self.assertIn("FACETMILL_KTX is not the path of a program", told)
         told = self.run_it(expect=2, env={"PATH": "/nowhere"}).stderr
         self.assertIn("neither is in PATH", told)
         self.assertIn("KTX-Software", told)

@@ -155,7 +155,7 @@ TEST_CASE("edges of a PLY are lines, apart from the faces", "[io]") {
                        "element edge 4000000000\nproperty int vertex1\nproperty int vertex2\nend_header\n" +
                        rows,
                    false);
-          }).find("element 'edge' is to have 4000000000 items") != std::string::npos);
+          }).find("element 'edge' should have 4000000000 items") != std::string::npos);
 }
 
 TEST_CASE("a line of an OBJ that names no vertex is refused with its place", "[io]") {

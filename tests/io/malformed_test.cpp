@@ -128,7 +128,7 @@ TEST_CASE("a broken OFF is refused with its place", "[io]") {
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
          "malformed [E-OFF] a.off:6: a face refers to vertex 3, but the file has 3"},
         {"OFF\n353535235358 6 0\n0 0 0\n",
-         "limit [E-SIZE] a.off: 353535235358 vertices and 6 faces are more than can be held"},
+         "limit [E-SIZE] a.off: 353535235358 vertices and 6 faces are more than facetmill supports"},
         {"OFF\n1000 6 0\n0 0 0\n", "malformed [E-OFF] a.off:2: the header gives 1000 vertices and 6 faces, "
                                    "but the remaining 9 bytes cannot hold them"},
         {"4OFF\n1 0 0\n0 0 0 0\n", "malformed [E-OFF] a.off:1: '4OFF' is a kind of OFF that is not read: "

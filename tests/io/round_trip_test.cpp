@@ -174,7 +174,7 @@ TEST_CASE("STL holds triangles, welded again on reading", "[io]") {
         CHECK(quads.scene.face_count() == 12);
         CHECK(changes(quads.written) == "face polygons recomputed: STL holds triangles: cut into them\n");
     }
-    CHECK(changes(trip(named_scene(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
+    CHECK(changes(trip(named_scene(shapes::uv_cube()), "stl").written).find("STL stores only positions") !=
           std::string::npos);
 }
 

@@ -57,14 +57,15 @@ TEST_CASE("a comment that states a unit or an axis that is none is told", "[io]"
         return all;
     };
     const std::string obj = "# unit: parsec\n# up: x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    CHECK(told("a.obj", obj) == "W-UNITS 'a.obj' states the unit 'parsec', which is none: it does not count\n"
-                                "W-UP 'a.obj' states the up axis 'x', which is none: it does not count\n");
+    CHECK(told("a.obj", obj) ==
+          "W-UNITS 'a.obj' states the unit 'parsec', which is unknown and therefore ignored\n"
+          "W-UP 'a.obj' states the up axis 'x', which is unknown and therefore ignored\n");
     CHECK(told("a.obj", obj, {.unit = Unit::m, .up = UpAxis::z}).empty());
     CHECK(told("a.ply", "ply\nformat ascii 1.0\ncomment unit: parsec\nelement vertex 1\nproperty float x\n"
                         "property float y\nproperty float z\nend_header\n0 0 0\n") ==
-          "W-UNITS 'a.ply' states the unit 'parsec', which is none: it does not count\n");
+          "W-UNITS 'a.ply' states the unit 'parsec', which is unknown and therefore ignored\n");
     CHECK(told("a.off", "OFF\n# units = parsec\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") ==
-          "W-UNITS 'a.off' states the unit 'parsec', which is none: it does not count\n");
+          "W-UNITS 'a.off' states the unit 'parsec', which is unknown and therefore ignored\n");
     CHECK(told("a.obj", "# unit:\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").empty());
 }
 

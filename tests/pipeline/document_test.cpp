@@ -144,11 +144,11 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
                               "  ---\n"
                               "  ^\n"
                               "  hint: one file holds one pipeline; remove the '---' or make two files"},
-        {"a: !thing 3\n", "p.yaml:1:4: error[E-YAML]: the tag !thing has no meaning here\n"
+        {"a: !thing 3\n", "p.yaml:1:4: error[E-YAML]: the tag !thing is not supported here\n"
                           "  a: !thing 3\n"
                           "     ^~~~~~\n"
                           "  hint: leave it out; a text that begins with ! is quoted: \"!thing\""},
-        {"a: 1\nonly: !eye*\nb: 2\n", "p.yaml:2:7: error[E-YAML]: the tag !eye* has no meaning here\n"
+        {"a: 1\nonly: !eye*\nb: 2\n", "p.yaml:2:7: error[E-YAML]: the tag !eye* is not supported here\n"
                                       "  only: !eye*\n"
                                       "        ^~~~~\n"
                                       "  hint: leave it out; a text that begins with ! is quoted: \"!eye*\""},
@@ -173,12 +173,12 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {"a: b: c\n", "p.yaml:1:5: error[E-YAML]: unexpected ':'\n"
                       "  a: b: c\n"
                       "      ^\n"
-                      "  hint: quote a text that holds ': ', and mind the indentation"},
+                      "  hint: quote texts that contain ': ', and check the indentation"},
         {"- relax\n  when: true\n",
          "p.yaml:2:7: error[E-YAML]: unexpected ':'\n"
          "    when: true\n"
          "        ^\n"
-         "  hint: a stage with further keys needs a colon: '- relax:' in the line above"},
+         "  hint: a stage with more keys needs a colon: write '- relax:' in the line above"},
         {"s:\n- a: \"scan.ply\n- b: 1\n", "p.yaml:2:6: error[E-YAML]: the quote is never closed\n"
                                           "  - a: \"scan.ply\n"
                                           "       ^\n"
@@ -191,7 +191,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
          "p.yaml:3:7: error[E-YAML]: expected a key of the map here\n"
          "  - b: \"y\"\n"
          "        ^\n"
-         "  hint: the quote that opens in line 2 is closed by this one: close it in its own line"},
+         "  hint: this quote closes the quote that opens in line 2: close that quote in its own line"},
         {"a: 'it's.glb'\n", "p.yaml:1:8: error[E-YAML]: expected a key of the map here\n"
                             "  a: 'it's.glb'\n"
                             "         ^\n"
@@ -217,7 +217,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
                     "     ^\n"
                     "  hint: in quotes it is a text: \"@x\""},
         {std::string("a: \0", 4),
-         "p.yaml:1:4: error[E-YAML]: the control character 0x00 may not be in a pipeline\n"
+         "p.yaml:1:4: error[E-YAML]: a pipeline cannot contain the control character 0x00\n"
          "  hint: a pipeline is a text in UTF-8"},
         {"a: b\xFFz\n", "p.yaml:1:5: error[E-YAML]: the byte 0xff is not UTF-8\n"
                         "  hint: a pipeline is a text in UTF-8"},

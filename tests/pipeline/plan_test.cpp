@@ -204,7 +204,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "                 ^~~\n"
          "  hint: the first is at p.yaml:4:16"},
         {stages("  - foreach: {lod: [50%]}\n"),
-         "p.yaml:4:5: error[E-MISSING]: foreach: 'do' is needed, the stages for each value\n"
+         "p.yaml:4:5: error[E-MISSING]: foreach needs 'do', the stages for each value\n"
          "    - foreach: {lod: [50%]}\n"
          "      ^~~~~~~\n"
          "  hint: - foreach: {lod: [50%, 25%]}\n"
@@ -445,7 +445,7 @@ TEST_CASE("a file to write whose name has what other programs replace is warned 
                                            "                     ^~~~~~~~~~~\n"
                                            "  hint: write ${scan.stem}");
     CHECK(warnings("$scan.glb").find("hint: write ${scan}") != std::string::npos);
-    CHECK(warnings("@{scan}.glb").find("'@{scan}' is no expression") != std::string::npos);
+    CHECK(warnings("@{scan}.glb").find("'@{scan}' is not an expression") != std::string::npos);
     CHECK(
         warnings("{input.stem}.glb")
             .find("hint: an expression is written ${input.stem}, where input is a param or the variable of a "

@@ -58,7 +58,7 @@ TEST_CASE("the vertices of one part are asked of the others", "[stages]") {
     scene.parts[1].transform = {{{0.01, 0, 0, 0.5}, {0, 0.01, 0, 0.5}, {0, 0, 0.01, 0.5}}};
     const Json r = probed("{points_of: tool}", scene);
     CHECK((r["count"] == 4 && r["inside"] == 4));
-    CHECK(probe_refusal("{points_of: nothing}", scene) == "E-PART 'points_of' names no part of the scene");
+    CHECK(probe_refusal("{points_of: nothing}", scene) == "E-PART 'points_of' selects no part of the scene");
 }
 
 TEST_CASE("segments and rays have hits in order, with part and face", "[stages]") {

@@ -280,7 +280,7 @@ TEST_CASE("a stray face that makes the rest small is told, and what shows it", "
     const auto run = run_stage("render", drawing_options(folder, "view: front"), scene);
     REQUIRE(run.warnings() == std::vector<std::string>{"W-FAR"});
     CHECK(run.record.warnings[0].message.ends_with(
-        " pixels wide in the picture, because something lies far off"));
+        " pixels wide in the picture, because another object is far away"));
     CHECK(run.record.warnings[0].hint.starts_with("use render: {path: near.png, at: ["));
     CHECK(
         run_stage("render", drawing_options(folder, "zoom: 10000, at: [0, 0, 0]"), scene).warnings().empty());

@@ -222,7 +222,7 @@ TEST_CASE("images that are read pixel by pixel stay as they are", "[stages]") {
 TEST_CASE("textures refuses options that say nothing", "[stages]") {
     ::setenv("FACETMILL_KTX", "/nowhere/ktx", 1);
     CHECK(problems_of("textures", options({{"format", "ktx2"}}))
-              .starts_with("E-KTX textures: FACETMILL_KTX does not name a program: '/nowhere/ktx'"));
+              .starts_with("E-KTX textures: FACETMILL_KTX is not the path of a program: '/nowhere/ktx'"));
     ::unsetenv("FACETMILL_KTX");
     CHECK(problems_of("textures", options({{"timeout", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"max_size", "nan"}})).starts_with("E-"));

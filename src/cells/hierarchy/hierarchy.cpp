@@ -107,13 +107,13 @@ class Hierarchy {
     void require_room(std::size_t station) const {
         const std::uint64_t needed = bytes_of_process + bytes_given(station);
         if (hierarchy_nodes_[station].is_leaf() || needed <= means_.memory) return;
-        throw out_of_memory(
-            fmt::format(
-                "cells of {} triangles were simplified to {} and not further (non-manifold places, many "
-                "components and max_quadric_error hold edges); joining them needs {}, --memory gives {}",
-                grouped(hierarchy_nodes_[station].faces), grouped(left_.faces_below(station)), sized(needed),
-                sized(means_.memory)),
-            "give more memory, ask for more faces, or set max_quadric_error: off");
+        throw out_of_memory(fmt::format("cells of {} triangles were simplified to {} and not further "
+                                        "(non-manifold regions, many components and max_quadric_error block "
+                                        "edges); joining them needs {}, but --memory allows {}",
+                                        grouped(hierarchy_nodes_[station].faces),
+                                        grouped(left_.faces_below(station)), sized(needed),
+                                        sized(means_.memory)),
+                            "give more memory, ask for more faces, or set max_quadric_error: off");
     }
 
     void settle(std::size_t station) {
@@ -208,9 +208,10 @@ void require_memory(const Partition& partition, const SimplifySettings& settings
     const std::uint64_t target = target_of(partition.faces(), settings);
     const std::uint64_t needed = memory_for_cells(partition.faces(), target);
     if (needed <= means.memory) return;
-    throw out_of_memory(fmt::format("a result of {} triangles needs at least {} in cells, --memory gives {}",
-                                    target, sized(needed), sized(means.memory)),
-                        "ask for fewer faces, or give more memory");
+    throw out_of_memory(
+        fmt::format("a result of {} triangles needs at least {} in cells, but --memory allows {}", target,
+                    sized(needed), sized(means.memory)),
+        "ask for fewer faces, or give more memory");
 }
 
 } // namespace

@@ -293,8 +293,8 @@ std::vector<std::uint8_t> LeftCells::take_up(const std::vector<std::uint8_t>& am
         kept_->tell(fmt::format("{} of other inputs or options removed from '{}'",
                                 counted(others, "simplified cell"), where));
     if (damaged > 0)
-        kept_->tell(fmt::format("{} in '{}' {} not as written: made again",
-                                counted(damaged, "simplified cell"), where, damaged == 1 ? "is" : "are"));
+        kept_->tell(fmt::format("{} in '{}' {} damaged and made again", counted(damaged, "simplified cell"),
+                                where, damaged == 1 ? "is" : "are"));
     if (reused > 0)
         kept_->tell(fmt::format("{} of {} simplified cells reused from '{}'", reused, all, where));
     return wanted;

@@ -49,9 +49,9 @@ class RimWalk {
         for (const Cell& cell : cells) faces += cell.mesh.face_count();
         if (faces * per_face > means_.memory / 2)
             throw out_of_memory(
-                fmt::format("{} triangles at vertices that cells share need {} at once; --memory "
-                            "gives {}",
-                            grouped(faces), sized(2 * faces * per_face), sized(means_.memory)),
+                fmt::format(
+                    "{} triangles at vertices that cells share need {} at once, but --memory allows {}",
+                    grouped(faces), sized(2 * faces * per_face), sized(means_.memory)),
                 "give more memory");
     }
 

@@ -35,10 +35,10 @@ void sort_vertices(Cell& cell) {
 /// Throws a limit error (E-MEMORY).
 void require_memory_for(std::uint64_t faces, const CellResources& means) {
     if (memory_in_core(faces) > means.memory)
-        throw out_of_memory(fmt::format("what is kept has more than {} triangles, which need {}; --memory "
-                                        "gives {}",
-                                        grouped(faces), sized(memory_in_core(faces)), sized(means.memory)),
-                            "keep less, or give more memory");
+        throw out_of_memory(
+            fmt::format("the kept mesh has more than {} triangles and needs {}, but --memory allows {}",
+                        grouped(faces), sized(memory_in_core(faces)), sized(means.memory)),
+            "keep less, or give more memory");
 }
 
 } // namespace

@@ -167,7 +167,7 @@ class PartitionKeeper {
             is_beside_others() ? 0
                                : count_damaged(records_file, records) + count_damaged(borders_file, borders);
         if (damaged > 0) {
-            why = fmt::format("{} of the {} cells in '{}' {} not as written", damaged, depths.size(),
+            why = fmt::format("{} of the {} cells in '{}' {} damaged", damaged, depths.size(),
                               folder_.path().string(), damaged == 1 ? "is" : "are");
             return {};
         }

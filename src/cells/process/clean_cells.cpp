@@ -41,8 +41,7 @@ class PlaceSet {
         names_.insert(name_of_place(p));
         if (names_.size() * bytes_of_entry > most_)
             throw out_of_memory(
-                fmt::format("clean: more than {} places are not sound, and --memory gives {} for "
-                            "them",
+                fmt::format("clean: more than {} places have defects, but --memory allows only {} for them",
                             grouped(names_.size()), sized(most_)),
                 "give more memory; load with weld: exact welds without it");
     }
@@ -216,10 +215,9 @@ class CellCleaning {
             before_ - placed_->vertices() - spared_; // vertices that needed no decision of clean
         result.counts.welded_vertices += welded;
         if (result.counts.welded_vertices > 0 && !attributes.empty())
-            refuse(
-                "vertices at one place have attributes of their own, which cells cannot keep apart once they "
-                "are welded",
-                "weld: off, or give more memory");
+            refuse("vertices at the same position have different attributes, which cells cannot keep "
+                   "separate after welding",
+                   "weld: off, or give more memory");
         const std::uint64_t in_file = plain_->contents().vertices;
         if (settings_.isolated && in_file > before_) result.counts.isolated_vertices += in_file - before_;
         if (replaces)
@@ -255,11 +253,11 @@ class CellCleaning {
 
     void require_room(std::uint64_t faces) const {
         if (faces * bytes_of_face > means_.memory / 2)
-            throw out_of_memory(
-                fmt::format("clean: {} triangles are at places that are not sound, and need {} at "
-                            "once; --memory gives {}",
-                            grouped(faces), sized(2 * faces * bytes_of_face), sized(means_.memory)),
-                "give more memory; load with weld: exact welds without it");
+            throw out_of_memory(fmt::format("clean: {} triangles are at places with defects and need {} at "
+                                            "once, but --memory allows {}",
+                                            grouped(faces), sized(2 * faces * bytes_of_face),
+                                            sized(means_.memory)),
+                                "give more memory; load with weld: exact welds without it");
     }
 
     /// Loads the faces at unsound positions, and their neighbours.
@@ -350,8 +348,8 @@ class CellCleaning {
             std::get<std::vector<std::uint8_t>>(cleaned.find(border_closure_name, Domain::face)->data);
         Mesh mesh = keep_faces(cleaned, faces_without(in_border_closure));
         if (mesh.has_seams())
-            refuse("vertices would have several sets of attributes, which cells do not carry",
-                   "non_manifold: off and t_junctions: off keep them as they are, or give more memory");
+            refuse("vertices would have several sets of attributes, which cells cannot store",
+                   "use non_manifold: off and t_junctions: off to keep them unchanged, or give more memory");
         const auto source =
             std::get<std::vector<std::uint32_t>>(mesh.find(source_name, Domain::vertex)->data);
         mesh.drop(source_name, Domain::vertex);
@@ -407,17 +405,16 @@ std::optional<std::string> why_not_in_cells(const CleanSettings& s) {
     for (const auto& [how, name] :
          {std::pair{s.weld, "weld"}, std::pair{s.t_junctions, "t_junctions"}, std::pair{s.stitch, "stitch"}})
         if (how == Nearness::near)
-            return fmt::format(
-                "{}: near moves vertices, and what that does to the faces around them needs the "
-                "whole mesh; exact does not",
-                name);
+            return fmt::format("{}: near moves vertices and changes the faces around them, which needs the "
+                               "whole mesh; exact does not",
+                               name);
     if (s.holes) return "holes: whether a patch meets other faces needs the whole mesh";
     if (s.self_intersections != Untangle::off)
-        return "self_intersections are between faces anywhere, and need the whole mesh";
+        return "self_intersections needs the whole mesh, because any two faces can intersect";
     for (const auto& [given, name] :
          {std::pair{s.components.has_value(), "components"}, std::pair{s.open_components, "open_components"},
           std::pair{s.inner_components, "inner_components"}})
-        if (given) return fmt::format("{}: what hangs together needs the whole mesh", name);
+        if (given) return fmt::format("{}: connected components need the whole mesh", name);
     if (s.single) return "precision: single moves vertices, and needs the whole mesh; full does not";
     return {};
 }

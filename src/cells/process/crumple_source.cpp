@@ -90,7 +90,7 @@ AttributeChanges crumple_changes(const Mesh& still) {
     for (std::size_t i = 0; i < changes.size(); ++i)
         if (follows_the_surface(still.attributes[i])) {
             changes[i].kind = AttributeChange::Kind::dropped;
-            changes[i].why = "it needs all faces of a vertex, and cells have some of them";
+            changes[i].why = "it needs all faces of a vertex, but a cell has only some of them";
         }
     return changes;
 }

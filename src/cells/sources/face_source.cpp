@@ -68,7 +68,7 @@ std::optional<std::string> why_not(const io::Input& input, Format format) {
     case Format::none:
         break;
     }
-    return "its format is not read in pieces";
+    return "its format cannot be read in pieces";
 }
 
 std::unique_ptr<RowReader> reader_of(const io::Input& input, const io::ReadSettings& settings,
@@ -208,7 +208,7 @@ void require_unchanged(const std::vector<FaceSource::File>& files) {
 }
 
 std::optional<std::string> why_not_streamed(const std::filesystem::path& path) {
-    if (path == "-" || io::is_stream(path)) return "it is a stream, and is read more than once";
+    if (path == "-" || io::is_stream(path)) return "it is a stream, which can be read only once";
     if (is_packed(path)) return "it is compressed";
     const io::Input input = open_mapped(path);
     return why_not(input, format_of(input));

@@ -242,7 +242,7 @@ std::optional<std::string> why_ply_not_streamed(const io::Input& input) {
         if (e.name == "tristrips") return "it has triangle strips";
         if (e.name == "vertex") vertices = &e;
         if (e.name == "face") faces = &e;
-        if (e.name == "face" && !vertices) return "its faces stand before its vertices";
+        if (e.name == "face" && !vertices) return "its faces come before its vertices";
         if (!faces && has_list(e)) return fmt::format("its element '{}' has lists", e.name);
     }
     if (!vertices || !faces || vertices->count == 0 || faces->count == 0) return "it has no faces";

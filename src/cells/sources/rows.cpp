@@ -147,7 +147,7 @@ void RowWriter::begin_group(Identity identity, bool by_use) {
 void RowWriter::vertex(const Vec3& p, io::Span extra) {
     if (rows_.vertex_count + 1 >= none)
         throw Error(ErrorKind::limit, "E-SIZE",
-                    fmt::format("more than {} vertices are more than can be held", none - 1),
+                    fmt::format("facetmill supports at most {} vertices", none - 1),
                     "write it as binary PLY or STL in several files, and process each");
     if (single_) {
         const std::array place{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};

@@ -205,8 +205,8 @@ bool remove_duplicates(Work& work) {
         }
         if (sheet && beside)
             work.not_done.push_back({"duplicates",
-                                     "both sides of a separate sheet beside closed components are kept, "
-                                     "because one alone would be open; components removes small ones",
+                                     "both sides of a separate sheet next to closed components are kept, "
+                                     "because a single side would be open; components removes small sheets",
                                      mesh.point(mesh.face_begin(first))});
     }
     if (count == 0) return false;

@@ -250,9 +250,9 @@ class Filler {
         if (collides(o, patch))
             return refuse("a patch would duplicate a face or make an edge with more than two faces", ring[0]);
         if (folds_back(o, ring, patch))
-            return refuse(
-                "a patch would lie on the faces beside it: this is where a flat surface ends, not a hole",
-                ring[0]);
+            return refuse("a patch would overlap the neighbouring faces: this is the border of a flat "
+                          "surface, not a hole",
+                          ring[0]);
         if (left_->contains(outline_)) return refuse("a patch would intersect other faces", ring[0]);
         add(o, ring, patch);
     }

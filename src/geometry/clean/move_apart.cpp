@@ -264,18 +264,19 @@ class Separation {
     void tell_of_untried(std::size_t places, const Vec3& first) {
         work_.not_done.push_back(
             {"apart",
-             fmt::format("at {} vertices were not moved apart, which would take long; STL will join them",
-                         counted(places, "place")),
+             fmt::format(
+                 "at {} vertices were not moved apart, because this would take too long; STL will join them",
+                 counted(places, "place")),
              first});
     }
 
     void tell(const Vec3& at) {
         work_.not_done.push_back(
             {"apart",
-             fmt::format(
-                 "vertices at one place cannot be moved apart by up to {} steps of float32, and an eighth of "
-                 "their shortest edges, so that no face turns over or meets another; STL will join them",
-                 most_float_steps),
+             fmt::format("vertices at the same position cannot be moved apart by up to {} steps of float32, "
+                         "and an eighth of their shortest edges, without a face that turns over or meets "
+                         "another; STL will join them",
+                         most_float_steps),
              at});
     }
 

@@ -79,8 +79,8 @@ DividedEdges divide_soundly(Work& work, const EdgeTable& edges, EdgeDivision how
             if (!spoilt.contains(e) && !(tries == max_divisions && edge.beside)) continue;
             how.leave.emplace(edge.low, edge.high);
             work.not_done.push_back({"non_manifold",
-                                     "the middle of an edge of more than two faces, rounded, lies beside it, "
-                                     "so that faces would intersect others or lose their area",
+                                     "the middle of an edge with more than two faces cannot be rounded onto "
+                                     "the edge, so faces would intersect others or lose their area",
                                      edge.point});
         }
     }

@@ -49,12 +49,12 @@ void refuse_crossings(const RingTree& tree, polygon::Rings rings) {
             if (j <= i || ea * eb >= 0 || fa * fb >= 0) return true;
             const double a = cross(e.b - e.a, f.a - e.a), b = cross(e.b - e.a, f.b - e.a);
             const Vec2 at = f.a + (f.b - f.a) * (a / (a - b));
-            refuse(fmt::format("the footprint intersects itself near ({}): the segment from ({}) to ({}) and "
-                               "that from ({}) to ({})",
+            refuse(fmt::format("the footprint intersects itself near ({}): the segments from ({}) to ({}) "
+                               "and from ({}) to ({})",
                                readable_pair(at.x, at.y), readable_pair(e.a.x, e.a.y),
                                readable_pair(e.b.x, e.b.y), readable_pair(f.a.x, f.a.y),
                                readable_pair(f.b.x, f.b.y)),
-                   "repair the outline, or crop by its simple parts one after the other");
+                   "repair the outline, or crop by each of its simple parts in turn");
         });
 }
 
@@ -70,7 +70,7 @@ Footprint::Footprint(std::vector<std::vector<Vec2>> rings)
     for (std::size_t i = 0; i < rings_.size(); ++i) {
         const int way = polygon::orientation(rings_[i]);
         if (way == 0)
-            refuse(fmt::format("ring {} of the footprint has no area", i + 1), "its corners lie on one line");
+            refuse(fmt::format("ring {} of the footprint has no area", i + 1), "its corners are on one line");
         int depth = 0;
         for (std::size_t k = 0; k < rings_.size(); ++k) {
             if (k == i) continue;

@@ -52,7 +52,7 @@ Box middle_box(std::vector<Vec3>& points) {
 
 std::string crowd_in_words(const Crowd& crowd) {
     return fmt::format(
-        "most of the scene is {:.2g} pixels wide in the picture, because something lies far off",
+        "most of the scene is {:.2g} pixels wide in the picture, because another object is far away",
         crowd.pixels);
 }
 

@@ -99,7 +99,7 @@ std::optional<Refusal> check_simplify_sharing(const SimplifySettings& s) {
     if (s.method == Method::cluster || s.method == Method::constrained)
         return Refusal{"share", "cluster and constrained have no cost that parts could share by",
                        "share: equal, or the method quadric"};
-    const char* const hint = "simplify_shares tells how many triangles each is to have";
+    const char* const hint = "use simplify_shares to find the number of triangles of each mesh";
     if (s.max_error) return Refusal{"max_error", "meshes that share a target take no max_error", hint};
     if (s.self_intersections != Intersections::ignore)
         return Refusal{"self_intersections", "meshes that share a target take no self_intersections", hint};

@@ -44,7 +44,7 @@ std::vector<NearPair> near_pairs(const std::vector<Vec2>& points, const std::vec
         for (const double dx : {0.0, 1.0}) {
             auto other = std::lower_bound(cells.begin(), cells.end(), Cell{c.x + dx, c.y - 1, 0});
             for (; other != cells.end() && other->x == c.x + dx && other->y <= c.y + 1; ++other) {
-                if (++compared > most) beyond_limit(name, "too many ends of lines lie in one place");
+                if (++compared > most) beyond_limit(name, "too many lines end at the same position");
                 if (dx == 0 && other->point == c.point) continue;
                 const Index a = std::min(c.point, other->point), b = std::max(c.point, other->point);
                 const double d = length(points[b] - points[a]);

@@ -254,7 +254,7 @@ class DxfPlacer {
         if (!known) return false;
         const bool in_plane = looks_ != Looks::tilted || e.type == "LINE" || e.type == "SPLINE" ||
                               (e.type == "POLYLINE" && (integer(e, 70) & 8) != 0);
-        if (!in_plane && c.closed) fail(e.line, "a closed outline does not lie in the drawing's plane");
+        if (!in_plane && c.closed) fail(e.line, "a closed outline is not in the drawing's plane");
         if (in_plane) add(e, std::move(c));
         return in_plane;
     }

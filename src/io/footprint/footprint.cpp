@@ -104,11 +104,12 @@ class DxfFootprint {
     }
     [[noreturn]] void refuse_gap(const OpenOutline& gap,
                                  const std::map<std::string, std::size_t>& open) const {
-        malformed(name_, 0, "E-FOOTPRINT",
-                  fmt::format("an outline has a gap of {} between ({}) and ({}); {} open",
-                              readable(length(gap.to - gap.from)), readable_pair(gap.from.x, gap.from.y),
-                              readable_pair(gap.to.x, gap.to.y), are(entities_text(open), open)),
-                  "join the ends in the CAD program, or delete the lines if they are no outline");
+        malformed(
+            name_, 0, "E-FOOTPRINT",
+            fmt::format("an outline has a gap of {} between ({}) and ({}); {} open",
+                        readable(length(gap.to - gap.from)), readable_pair(gap.from.x, gap.from.y),
+                        readable_pair(gap.to.x, gap.to.y), are(entities_text(open), open)),
+            "join the ends in the CAD program, or delete the lines if they do not belong to an outline");
     }
 
     const std::string& name_;

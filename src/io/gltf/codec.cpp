@@ -400,7 +400,7 @@ void warn_of_losses(Patch& patch) {
             patch.warn("W-MERGED",
                        fmt::format("only the meshes and materials of '{}' are written, without its {}",
                                    patch.scene.documents[d]->name, fmt::join(lost, ", ")),
-                       fmt::format("load '{}' by itself, and write it to a file of its own to keep them",
+                       fmt::format("load '{}' alone, and write it to a separate file to keep them",
                                    patch.scene.documents[d]->name));
     }
 }
@@ -535,7 +535,7 @@ const RegisterCodec glb({
 
 const RegisterCodec gltf({
     .name = "gltf",
-    .about = "glTF 2.0 as JSON with a .bin and images beside it",
+    .about = "glTF 2.0 as JSON, with a .bin and images as separate files",
     .extensions = {"gltf"},
     .unit = Unit::m,
     .up = UpAxis::y,

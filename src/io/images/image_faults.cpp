@@ -74,7 +74,7 @@ std::string image_fault(Span bytes) {
     constexpr std::size_t dds_header = 128;
     const std::string type = media_type(bytes);
     if (bytes.empty()) return "it is empty";
-    if (type.empty()) return "it is of no known kind";
+    if (type.empty()) return "its kind is unknown";
     if (type == "image/ktx2") return ktx2_fault(bytes);
     const auto size = type == "image/vnd-ms.dds" ? std::pair<std::size_t, std::size_t>{1, 1}
                                                  : image_size(bytes).value_or(std::pair(0, 0));

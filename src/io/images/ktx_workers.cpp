@@ -165,7 +165,7 @@ class Worker {
         if (!problem.empty()) return problem;
         std::error_code failed;
         if (!(fs::file_size("out.ktx2", failed) <= most_bytes) || failed)
-            return "wrote no file of a size that is read";
+            return "wrote no file, or a file that is too large";
         file = contents_of("out.ktx2");
         return {};
     }
@@ -219,7 +219,7 @@ class Loan {
     [[noreturn]] void fail() {
         broken_ = true;
         throw Error(ErrorKind::stage, "E-KTX", "the process that runs ktx was ended",
-                    "it may want for memory; textures: {format: webp} needs no other program");
+                    "it may need more memory; textures: {format: webp} needs no other program");
     }
 
   private:

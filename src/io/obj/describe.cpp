@@ -84,7 +84,7 @@ class Describer {
         if (const auto all = texture.find("extensions"))
             for (const auto& [name, _] : all->json().items())
                 if (const auto source = all->at(name.c_str()).find("source")) sources.push_back(*source);
-        std::string why = "its image is not there";
+        std::string why = "its image is missing";
         for (const JsonCursor& source : sources) {
             const auto* image =
                 images_.find(material_.document, source.index(gltf::count_of(json_, "images"), "image"));
@@ -225,7 +225,7 @@ class Describer {
         const bool has_map = pbr.find("metallicRoughnessTexture").has_value();
         if (has_map && rough == 0)
             lose_texture("metallicRoughnessTexture",
-                         "roughnessFactor is 0, which is read as 1 beside map_Pr");
+                         "roughnessFactor is 0, which readers take as 1 if map_Pr is present");
         const auto both = rough == 0 ? std::nullopt : map(pbr, "metallicRoughnessTexture");
         put("pr", both);
         if (metal != 0) put("pm", both);

@@ -228,7 +228,8 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
         if (!file) {
             log.unrepeatable |= path.has_value(); // a link may point elsewhere in the next run
             warn(log, input.name(),
-                 fmt::format("the material file {} is not beside the mesh and is not read", in_quotes(name)),
+                 fmt::format("the material file {} is not in the folder of the mesh and is not read",
+                             in_quotes(name)),
                  hint_for_asset_root(input, path));
             continue;
         }

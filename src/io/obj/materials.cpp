@@ -162,8 +162,9 @@ void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const D
     if (coloured && !colour->second.lies_as(map->second))
         return warn(
             name,
-            fmt::format("the opacity of map_d \"{}\" is not kept: its placement differs from that of map_Kd",
-                        map->second.file));
+            fmt::format(
+                "the opacity of map_d \"{}\" is not kept: its placement differs from the placement of map_Kd",
+                map->second.file));
     if (!coloured || !alpha || colour->second.relative != map->second.relative) {
         const Pixels* opacity = pixels_of(name, "map_d", map->second);
         const Pixels* base = coloured ? pixels_of(name, "map_Kd", colour->second) : nullptr;
@@ -201,8 +202,9 @@ std::optional<Json> MaterialMaker::surface_texture(const std::string& name, cons
     if (pr != none && (packed || (pm == none && d.metalness.value_or(0) == 0)))
         return texture(name, "map_Pr", pr->second);
     if (pr != none && pm != none && !pr->second.lies_as(pm->second)) {
-        warn(name, fmt::format("map_Pm \"{}\" is not kept: its placement differs from that of map_Pr",
-                               pm->second.file));
+        warn(name,
+             fmt::format("map_Pm \"{}\" is not kept: its placement differs from the placement of map_Pr",
+                         pm->second.file));
         return texture(name, "map_Pr", pr->second);
     }
     const Pixels* rough = pr == none ? nullptr : pixels_of(name, "map_Pr", pr->second);

@@ -271,8 +271,9 @@ class Joiner {
         const Counts& all = before_.back();
         if (all.element[0] > settings.max_vertices || all.element[0] >= none || all.corners >= none ||
             all.line_points >= none)
-            beyond_limit(input_.name(), fmt::format("{} vertices and {} corners are more than can be held",
-                                                    all.element[0], all.corners + all.line_points));
+            beyond_limit(input_.name(),
+                         fmt::format("{} vertices and {} corners are more than facetmill supports",
+                                     all.element[0], all.corners + all.line_points));
         bool coloured = false, keyed = false;
         for (const auto& chunk : chunks_) coloured |= !chunk.own.colours.empty();
         for (const auto& chunk : chunks_)

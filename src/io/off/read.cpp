@@ -89,8 +89,9 @@ struct Builder {
             malformed(input.name(), line, "E-OFF",
                       fmt::format("expected counts, found {} vertices and {} faces", vertices, faces));
         if (static_cast<std::uint64_t>(vertices) > settings.max_vertices || vertices >= none || faces >= none)
-            beyond_limit(input.name(),
-                         fmt::format("{} vertices and {} faces are more than can be held", vertices, faces));
+            beyond_limit(
+                input.name(),
+                fmt::format("{} vertices and {} faces are more than facetmill supports", vertices, faces));
         const std::size_t spare = line > 0 ? 1 : 0; // the last line of a text may lack its end
         if (static_cast<std::size_t>(vertices) * per_vertex + static_cast<std::size_t>(faces) * per_face >
             left + spare)

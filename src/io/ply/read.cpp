@@ -54,8 +54,9 @@ void Builder::set_positions() {
     if (!vertices_.element) malformed(input_.name(), 0, "E-PLY", "there is no element 'vertex'");
     const Element& e = *vertices_.element;
     if (e.count > settings_.max_vertices || e.count >= none)
-        beyond_limit(input_.name(), fmt::format("{} vertices are more than the {} that can be held", e.count,
-                                                std::min<std::size_t>(settings_.max_vertices, none - 1)));
+        beyond_limit(input_.name(),
+                     fmt::format("{} vertices are more than the {} that facetmill supports", e.count,
+                                 std::min<std::size_t>(settings_.max_vertices, none - 1)));
     std::vector<std::size_t> columns = vertices_.take({"x", "y", "z"});
     if (columns.empty()) fail(e, "element 'vertex' lacks one of the properties x, y and z");
     mesh_.positions.resize(e.count);

@@ -43,7 +43,8 @@ void index_by_position(Mesh& mesh, const ReadSettings& settings) {
 
 void check_count(const Input& input, const ReadSettings& settings, std::size_t vertices) {
     if (vertices >= none || vertices > 3 * settings.max_vertices)
-        beyond_limit(input.name(), fmt::format("{} triangles are more than can be held", vertices / 3));
+        beyond_limit(input.name(),
+                     fmt::format("{} triangles are more than facetmill supports", vertices / 3));
 }
 
 /// The triangle records of a binary file.

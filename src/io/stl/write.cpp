@@ -130,7 +130,7 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
             const bool is_extra = !colours && a.name == stl_attribute && attribute_bytes(part.mesh);
             const bool kept = !settings.ascii && (&a == colours || is_extra);
             if (!kept && told.insert({a.name, a.domain}).second)
-                dropped(written, a, "STL holds positions only, besides colours of faces in binary files");
+                dropped(written, a, "STL stores only positions, and in binary files also colours of faces");
         }
         if (!part.mesh.all_triangles() && told.insert({"polygons", Domain::face}).second)
             written.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,

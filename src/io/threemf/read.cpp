@@ -261,7 +261,7 @@ class SceneMaker {
             reads_all_types_
                 ? fmt::format("the file has no object of type 'model': others are read as such ({})",
                               fmt::join(words, ", "))
-                : fmt::format("objects that are no models are left out: {}", fmt::join(words, ", "));
+                : fmt::format("objects that are not models are skipped: {}", fmt::join(words, ", "));
         log_.warnings.push_back({Severity::warning, "W-SKIPPED", std::move(message), file_mark(name_),
                                  reads_all_types_ ? "" : "change their type in the program that wrote them"});
     }

@@ -39,7 +39,7 @@ TilesetFrame usual_frame(const Box& box, const WriteSettings& settings) {
     constexpr int float_bits = 24;
     if (!(box.diagonal() <= std::numeric_limits<float>::max()))
         throw Error(ErrorKind::stage, "E-RANGE",
-                    fmt::format("the scene measures {:.3g}, which float32 cannot hold", box.diagonal()),
+                    fmt::format("the scene has the size {:.3g}, which float32 cannot store", box.diagonal()),
                     "bring it near 1 with transform: {scale: ...}, or write PLY with precision: full");
     TilesetFrame frame{near_centre(box, 0)};
     double reach = 0;

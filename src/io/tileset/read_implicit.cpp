@@ -15,7 +15,7 @@ constexpr std::size_t most_places = std::size_t{1} << 22; // largest number of t
 constexpr std::size_t most_contents = std::size_t{1} << 22;
 
 [[noreturn]] void too_many(const JsonCursor& place) {
-    place.fail("has more tiles than are read", "E-LIMIT", "load some of its tiles");
+    place.fail("has more tiles than facetmill supports", "E-LIMIT", "load some of its tiles");
 }
 
 /// A tile in the quadtree (z stays 0) or octree.

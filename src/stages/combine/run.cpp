@@ -79,7 +79,7 @@ std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const 
         const auto is_named = [&](const Part& part) { return alone.selects(part, scene); };
         if (!pattern.starts_with('!') && std::none_of(scene.parts.begin(), scene.parts.end(), is_named))
             throw Error(ErrorKind::usage, "E-PART",
-                        fmt::format("combine: 'with' names no part of the scene: {}", pattern),
+                        fmt::format("combine: 'with' selects no part of the scene: {}", pattern),
                         did_you_mean(pattern, names_of(scene), "facetmill info lists them"));
     }
     const PartFilter with{o.with};

@@ -88,14 +88,15 @@ namespace {
 double unit_factor(const io::FootprintFile& file, const std::string& name, Unit scene, Context& context) {
     if (file.metres > 0 && scene != Unit::unknown) return file.metres / metres(scene);
     if (file.metres > 0)
-        context.warn("W-UNITS",
-                     fmt::format("{}: '{}' states its unit, but the scene has none: its numbers are taken as "
-                                 "scene units",
-                                 context.name(), name),
-                     "give the unit of the mesh: load: {unit: mm}");
+        context.warn(
+            "W-UNITS",
+            fmt::format(
+                "{}: '{}' states its unit, but the scene has none: its numbers are read as scene units",
+                context.name(), name),
+            "give the unit of the mesh: load: {unit: mm}");
     else if (file.can_state_unit && scene != Unit::unknown)
         context.warn("W-UNITS",
-                     fmt::format("{}: '{}' states no unit: its numbers are taken as {}", context.name(), name,
+                     fmt::format("{}: '{}' states no unit: its numbers are read as {}", context.name(), name,
                                  to_string(scene)),
                      "set the unit of the drawing ($INSUNITS) in the CAD program");
     return 1;

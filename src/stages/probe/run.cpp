@@ -30,7 +30,7 @@ Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context&
         else if (context.selects(part, scene))
             q.surface.push_back(&part);
     if (!o.points_of.empty() && q.sources.empty())
-        throw Error(ErrorKind::usage, "E-PART", "'points_of' names no part of the scene",
+        throw Error(ErrorKind::usage, "E-PART", "'points_of' selects no part of the scene",
                     "facetmill info lists them");
     if (q.surface.empty() && !q.sources.empty())
         throw Error(ErrorKind::usage, "E-PART",

@@ -96,7 +96,7 @@ void verify_textures(const TexturesOptions& o, const Value& given, Problems& pro
         const char* named = std::getenv("FACETMILL_KTX");
         add_refusal(
             Refusal{"format",
-                    named && *named ? fmt::format("FACETMILL_KTX does not name a program: '{}'", named)
+                    named && *named ? fmt::format("FACETMILL_KTX is not the path of a program: '{}'", named)
                                     : "KTX2 needs the program ktx or toktx, but neither is in PATH",
                     "install KTX-Software (https://github.com/KhronosGroup/KTX-Software/releases), or give "
                     "the path of the program in FACETMILL_KTX; format: webp needs no other program",

@@ -282,8 +282,9 @@ WrittenScene stage_files(const io::Written& written, const std::filesystem::path
     ProgressSteps steps({1, 3});
     for (const auto& file : written.files) {
         if (main && path == "-") {
-            context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output together with the mesh",
-                                                  file.name.string()));
+            context.warn("W-SKIPPED",
+                         fmt::format("'{}' cannot be written to standard output together with the mesh",
+                                     file.name.string()));
             continue;
         }
         const io::Packing packing = main ? io::Packing::none : io::packing_named(path);

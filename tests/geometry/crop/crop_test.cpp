@@ -178,11 +178,10 @@ TEST_CASE("footprints that are none are refused", "[geometry]") {
           "usage [E-FOOTPRINT] ring 1 of the footprint has 2 corners, and a ring needs three | give the "
           "corners in order; the last one is joined to the first");
     CHECK(refusal({{{0, 0}, {1, 0}, {2, 0}}}) ==
-          "usage [E-FOOTPRINT] ring 1 of the footprint has no area | its corners lie on one line");
+          "usage [E-FOOTPRINT] ring 1 of the footprint has no area | its corners are on one line");
     CHECK(refusal({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}) ==
-          "usage [E-FOOTPRINT] the footprint intersects itself near (1, 1): the segment from (0, 0) to (2, "
-          "2) and that from (2, 0) to (0, 2) | repair the outline, or crop by its simple parts one after the "
-          "other");
+          "usage [E-FOOTPRINT] the footprint intersects itself near (1, 1): the segments from (0, 0) to (2, "
+          "2) and from (2, 0) to (0, 2) | repair the outline, or crop by each of its simple parts in turn");
     CHECK(refusal({{{0, 0}, {NAN, 2}, {2, 0}}}) ==
           "usage [E-FOOTPRINT] ring 1 of the footprint has a corner that is not finite");
 }

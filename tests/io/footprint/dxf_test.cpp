@@ -175,8 +175,8 @@ TEST_CASE("an outline of a DXF with a gap is refused, so that its hole is not ta
     gap.line({0, 0}, {60, 0}).line({60, 0.05}, {60, 60}).line({60, 60}, {0, 60}).line({0, 60}, {0, 0});
     CHECK(refusal_of_dxf(gap.circle({30, 30}, 5)) ==
           "malformed [E-FOOTPRINT] plate.dxf: an outline has a gap of 0.05 between (60, 0) and (60, 0.05); 4 "
-          "LINE entities are open | join the ends in the CAD program, or delete the lines if they are no "
-          "outline");
+          "LINE entities are open | join the ends in the CAD program, or delete the lines if they do not "
+          "belong to an outline");
     auto side = dxf_entities(); // a whole side is missing
     side.line({0, 0}, {60, 0}).line({60, 60}, {0, 60}).line({0, 60}, {0, 0}).circle({30, 30}, 5);
     CHECK(refusal_of_dxf(side).starts_with("malformed [E-FOOTPRINT] plate.dxf: an outline has a gap of 60"));

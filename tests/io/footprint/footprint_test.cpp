@@ -99,7 +99,7 @@ TEST_CASE("outlines of a DXF drawn from behind, in blocks, and out of the plane"
         read("0\nSECTION\n2\nBLOCKS\n" + outline("") + "0\nENDSEC\n" + entities + outline("") + end).size() ==
         1);
     CHECK(refusal(entities + outline("210\n1\n220\n0\n230\n0\n") + end) ==
-          "malformed [E-DXF] outline:6: a closed outline does not lie in the drawing's plane");
+          "malformed [E-DXF] outline:6: a closed outline is not in the drawing's plane");
 }
 
 TEST_CASE("a ring that repeats another one is left out", "[io]") {

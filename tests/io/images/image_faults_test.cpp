@@ -65,7 +65,7 @@ TEST_CASE("the end of a thumbnail is not that of its JPEG", "[io]") {
 
 TEST_CASE("images without a header that can be true are told", "[io]") {
     CHECK(fault("") == "it is empty");
-    CHECK(fault("no image") == "it is of no known kind");
+    CHECK(fault("no image") == "its kind is unknown");
     std::string png = red_png();
     png[16 + 3] = 0; // the width: its checksum does not hold, either
     CHECK(fault(png) == "its header is broken");

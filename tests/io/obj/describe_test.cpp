@@ -437,7 +437,7 @@ TEST_CASE("materials of one name and an image that is not there", "[io]") {
     put(dir / "t.gltf", triangle(textured, "gone.png"));
     const io::Written gone = written(io::read_scene(io::Input::open(dir / "t.gltf"), {}, log), "obj");
     CHECK(warnings_of(gone) ==
-          "W-TEXTURES textures are not written to OBJ: of m: baseColorTexture (its image is not there)\n");
+          "W-TEXTURES textures are not written to OBJ: of m: baseColorTexture (its image is missing)\n");
     put(dir / "t.gltf", triangle(textured, "b.png"));
     put(dir / "b.png", red_png().substr(0, 40));
     CHECK(warnings_of(written(load(dir / "t.gltf"), "obj"))

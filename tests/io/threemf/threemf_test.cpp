@@ -273,7 +273,7 @@ TEST_CASE("objects of a 3MF that are no models are left out and named", "[io]") 
     REQUIRE(some.log.warnings.size() == 2);
     CHECK(some.log.warnings[0].id == "W-SKIPPED");
     CHECK(some.log.warnings[0].message ==
-          "objects that are no models are left out: 1 'other', 1 'solidsupport', 1 'support', 1 'surface'");
+          "objects that are not models are skipped: 1 'other', 1 'solidsupport', 1 'support', 1 'surface'");
     CHECK(some.log.warnings[1].id == "W-3MF");
     CHECK(some.log.warnings[1].message == "it builds object 3, whose type is 'other', which it must not");
     const Loaded surface = load(archive(model(object(4, "surface"), R"(<item objectid="4"/>)")));
@@ -346,7 +346,7 @@ TEST_CASE("broken rules of 3MF that leave a mesh are named", "[io]") {
         return loaded.log.warnings[0].message;
     };
     CHECK(fault(archive(model(R"(<object id="1" pid="9" pindex="0">)" + one_triangle + "</object>", item))) ==
-          "object 1 names the properties 9, which do not exist: it has no colour there");
+          "object 1 refers to the properties 9, which do not exist: it has no colour there");
     CHECK(fault(archive(model(R"(<m:colorgroup id="1"><m:color color="#00FF00"/></m:colorgroup>)" + plain,
                               item))) == "line 2: two resources have the id 1, which must be unique");
     CHECK(fault(archive(model(plain, ""))) ==

@@ -140,12 +140,12 @@ class LookBuilder {
         const auto size = image_size(*bytes);
         if (size && reader_.bytes_ + texture_bytes(size->first, size->second, max_side) > reader_.most_) {
             warn(index, fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20),
-                 "textures: 1024 before the picture makes them smaller");
+                 "use textures: 1024 before the picture to make them smaller");
             return nullptr;
         }
         if (size && size->first > max_pixels / std::max<std::size_t>(1, size->second)) {
             warn(index, fmt::format("it has {} x {} pixels, more than 2^26", size->first, size->second),
-                 "make the image smaller where it was made, to 8192 x 8192 at most");
+                 "make the image at most 8192 x 8192 pixels in the program that made it");
             return nullptr;
         }
         auto pixels = decoded_image(*bytes);

@@ -176,12 +176,13 @@ const char* Store::reason_for_floats(std::size_t mesh, const PositionGrid& grid)
     if (uses_extension(json_, "KHR_animation_pointer"))
         return "stays float32, because KHR_animation_pointer may drive its nodes";
     if (fixed_.contains(mesh)) return "stays float32, because an extension uses the mesh without its node";
-    if (nodes_[mesh].empty()) return "stays float32, because no node could hold its grid";
+    if (nodes_[mesh].empty()) return "stays float32, because no node can store its grid";
     for (const std::size_t n : nodes_[mesh]) {
         const Json& node = json_["nodes"][n];
         if (node.contains("skin")) return "stays float32 where a mesh has a skin, which ignores nodes";
         if (has_extension(node, instancing_extension) && !instances_on_grid(n, grid))
-            return "stays float32 where the places of its instances are not known or too far away for a grid";
+            return "stays float32 where the positions of its instances are unknown or too far away for a "
+                   "grid";
     }
     return nullptr;
 }

@@ -461,7 +461,7 @@ bool merge_as_told(Source& source, const JsonCursor& mesh_place, Mesh& mesh,
         return false;
     };
     const std::vector<Index> vertices = told_vertices(source, *extension, mesh);
-    if (vertices.empty()) return ignore("its indices are not as many as the primitives'");
+    if (vertices.empty()) return ignore("it has a different number of indices than the primitives");
     std::vector<Index> vertex_of(mesh.positions.size(), none);
     for (std::size_t c = 0; c < vertices.size(); ++c) {
         Index& v = vertex_of[mesh.corners[c]];

@@ -120,7 +120,7 @@ void release_manifold(Patch& patch, const Json& extension) {
         {{"primitives", Json::array()}, {"extensions", {{"EXT_mesh_manifold", extension}}}});
     const AttributeChange change{
         "EXT_mesh_manifold", Domain::face, AttributeChange::Kind::dropped,
-        "it names the corners of a mesh that is written anew; mesh_manifold: true writes it again"};
+        "it refers to the corners of a mesh that is written again; mesh_manifold: true writes it again"};
     auto& all = patch.written.changes;
     if (!patch.settings.mesh_manifold && std::find(all.begin(), all.end(), change) == all.end())
         all.push_back(change);

@@ -167,7 +167,7 @@ TEST_CASE("places that a grid cannot be in keep the positions as they are, which
         const io::Written written = test::written(unexpanded(json), "glb", quantized(false, false));
         CHECK(position_type(written.files.at(0).bytes) == 5126);
         REQUIRE(written.changes.size() == 1);
-        CHECK(written.changes[0].why.find("places of its instances") != std::string::npos);
+        CHECK(written.changes[0].why.find("positions of its instances") != std::string::npos);
     }
 }
 
