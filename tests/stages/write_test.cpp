@@ -336,16 +336,15 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
 TEST_CASE("write refuses what it cannot mean", "[stages]") {
     Bench b;
     b.scene.parts.emplace_back().mesh = shapes::cube();
-    CHECK(failure([&] { b.run("write", Value::scalar("c.qqq")); })
-              .starts_with(
-                  "usage [E-FORMAT] the suffix of 'c.qqq' is not a known format | give 'format', one of: "));
+    CHECK(failure([&] {
+              b.run("write", Value::scalar("c.qqq"));
+          }).starts_with("usage [E-FORMAT] the suffix of 'c.qqq' is unknown | give 'format', one of: "));
     CHECK(failure([&] { b.run("write", Value::scalar("c.xyz")); }) ==
-          "usage [E-FORMAT] the suffix of 'c.xyz' is not a known format | write .ply, which CloudCompare and "
+          "usage [E-FORMAT] the suffix of 'c.xyz' is unknown | write .ply, which CloudCompare and "
           "others convert");
-    CHECK(
-        failure([&] { b.run("write", Value::scalar("c.DXF")); }) ==
-        "usage [E-FORMAT] the suffix of 'c.DXF' is not a known format | use section: {path: c.DXF} to draw a "
-        "plane section");
+    CHECK(failure([&] { b.run("write", Value::scalar("c.DXF")); }) ==
+          "usage [E-FORMAT] the suffix of 'c.DXF' is unknown | use section: {path: c.DXF} to draw a "
+          "plane section");
     CHECK(failure([&] {
               b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
           }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when "

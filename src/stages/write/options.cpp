@@ -327,7 +327,7 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
         problems.add(mark, "E-FORMAT", fmt::format("format '{}' does not exist", o.format),
                      suggestion(o.format, names));
     else if (!codec)
-        problems.add(mark, "E-FORMAT", fmt::format("the suffix of '{}' is not a known format", o.path.text),
+        problems.add(mark, "E-FORMAT", fmt::format("the suffix of '{}' is unknown", o.path.text),
                      hint_of_suffix(o.path.text, names));
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} can be read but not written", codec->name),

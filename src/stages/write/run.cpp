@@ -262,9 +262,8 @@ namespace {
 Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& report) {
     const io::Codec* codec = codec_of(o);
     if (!codec || !codec->write)
-        throw Error(ErrorKind::usage, "E-FORMAT",
-                    fmt::format("the suffix of '{}' is not a known format", o.path.text), {},
-                    context.where());
+        throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("the suffix of '{}' is unknown", o.path.text),
+                    {}, context.where());
     // Moves the parts into the written scene, so that no mesh is copied; they are moved back afterwards.
     Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
     std::vector<Lent> lent;
