@@ -240,11 +240,11 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
     b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = touching_cubes();
     CHECK(told_of(b, Value::scalar("c.stl")) ==
-          "stl has no shared vertices, so corners at the same position are merged when it is read (2 fewer): "
+          "stl has no shared vertices, so reading it merges corners at the same position (2 fewer): "
           "write 3MF, PLY, OBJ or OFF, which keep them separate");
     b.record.warnings.clear();
     CHECK(told_of(b, Value::scalar("c.glb")) ==
-          "vertices of glb at the same position are merged when it is read (2 fewer): mesh_manifold: true, "
+          "reading glb merges vertices at the same position (2 fewer): use mesh_manifold: true, "
           "or write PLY, OBJ or OFF");
     for (const Value& value : {Value::scalar("c.ply"), Value::scalar("c.obj"), Value::scalar("c.off"),
                                options({{"path", "d.glb"}, {"mesh_manifold", "true"}})}) {

@@ -26,7 +26,7 @@ const char* reason(Fitness f) {
     case Fitness::fit:
         break;
     case Fitness::open:
-        return "is open (only closed components can be united; holes closes them)";
+        return "is open (only closed components can be united: fill the holes first)";
     case Fitness::disagreeing:
         return "has inconsistently oriented faces (use orient first)";
     case Fitness::flat:

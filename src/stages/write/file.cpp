@@ -106,15 +106,14 @@ std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::W
                                       codec.name, changes.added));
     if (changes.merged > 0 && !codec.can.shares_vertices)
         reasons.push_back(
-            fmt::format("{} has no shared vertices, so corners at the same position are merged when it is "
-                        "read ({} fewer): write 3MF, PLY, OBJ or OFF, which keep them separate",
+            fmt::format("{} has no shared vertices, so reading it merges corners at the same position ({} "
+                        "fewer): write 3MF, PLY, OBJ or OFF, which keep them separate",
                         codec.name, changes.merged));
     else if (changes.merged > 0)
         reasons.push_back(
-            fmt::format("vertices of {} at the same position are merged when it is read ({} fewer): {}write "
-                        "PLY, OBJ or OFF",
+            fmt::format("reading {} merges vertices at the same position ({} fewer): {}write PLY, OBJ or OFF",
                         codec.name, changes.merged,
-                        settings.mesh_manifold || settings.draco.on ? "" : "mesh_manifold: true, or "));
+                        settings.mesh_manifold || settings.draco.on ? "" : "use mesh_manifold: true, or "));
     if (changes.rounded > 0 || reasons.empty()) reasons.push_back(rounding(back, codec, settings));
     return fmt::format("{}", fmt::join(reasons, "; "));
 }
