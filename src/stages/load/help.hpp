@@ -15,8 +15,8 @@ Names are made unique.
 
 The scene takes its unit and up axis from the first file that has them.
 Later files are converted to them.
-OBJ and OFF files can give them in comments in the first lines (`# unit: mm`, `# up: z`).
-PLY and binary STL files can give them in the header.
+OBJ and OFF files can state both in comments in the first lines (`# unit: mm`, `# up: z`).
+PLY and binary STL files can state both in the header.
 
 Lines (l in OBJ, edges in PLY, line primitives in glTF) become separate parts.
 Stages that work on faces leave them unchanged.

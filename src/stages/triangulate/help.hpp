@@ -18,8 +18,8 @@ Non-planar faces are projected in the same way.
 Planar faces that intersect themselves are filled by the nonzero rule: triangles cover every point
 that the outline winds around.
 New vertices are added where edges cross, also to the neighbouring faces.
-If the outline winds around points several times, they are covered once if the face has no
-neighbours.
+If the outline winds around points several times and the face has no neighbours, they are covered
+once.
 If it has neighbours, they are covered as often as the outline winds around them, because the
 surface would otherwise be open (W-FANS).
 Self-intersecting non-planar faces, and faces without area, are cut as fans (W-FANS).
