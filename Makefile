@@ -2,7 +2,8 @@
 #
 #   make          build build/release/facetmill
 #   make deps     install the Debian packages that are missing (tools/deps.sh --list names them)
-#   make demo     build, process a real scan and say where the results are
+#   make demo     process a real scan and say where the results are, with an installed facetmill of this version, else
+#                 with one that is built
 #   make test     build and run all tests                    (PRESET=debug, asan, tsan or ci for other builds)
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
@@ -46,9 +47,14 @@ build: configure
 tests: configure
 	@cmake --build --preset $(PRESET) -j $(JOBS)
 
-demo: build
+# An installed facetmill of this version; empty if there is none.
+INSTALLED := $(if $(filter demo,$(MAKECMDGOALS)),$(shell \
+    [ "$$(facetmill --version 2>&1)" = "facetmill $$(cat VERSION)" ] && command -v facetmill))
+
+demo: $(if $(INSTALLED),,build)
 	@mkdir -p out
-	$(BUILD)/facetmill run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
+	$(if $(INSTALLED),@echo "$(INSTALLED) is of this version and is used. make build builds from these sources.")
+	$(or $(INSTALLED),$(BUILD)/facetmill) run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
 	@echo
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
