@@ -16,7 +16,7 @@
 #   make pictures all pictures of the manual anew: those of docs/figures, which on an unchanged tree stay as they are, and
 #                 those of the stages' pages and the gallery, with the site around them
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
-#   make deb      a Debian package in build/release
+#   make deb      the Debian packages facetmill and facetmill-doc in build/release
 #   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
 #   make test-dist   install these packages as users do, and run them (needs root for chroot)
 #   make format   run clang-format over the sources
@@ -109,6 +109,7 @@ install: build
 	cmake --install $(BUILD) --prefix $(PREFIX)
 
 deb: build
+	@tools/deps.sh --deb
 	cd $(BUILD) && cpack -G DEB
 
 dist: deps
