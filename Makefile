@@ -18,6 +18,7 @@
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      the Debian packages facetmill and facetmill-doc in build/release
 #   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
+#   make reproduce   build them again from a clone of this commit, and compare the bytes with dist/
 #   make test-dist   install these packages as users do, and run them (needs root for chroot)
 #   make format   run clang-format over the sources
 #   make check-style   the layers, clang-format, clang-tidy, and statements separated by commas
@@ -32,7 +33,7 @@ TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist test-dist format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist reproduce test-dist format check-layers check-style clean
 all: build
 
 deps:
@@ -114,6 +115,9 @@ deb: build
 
 dist: deps
 	@packaging/dist.sh dist
+
+reproduce:
+	@packaging/reproduce.sh dist
 
 test-dist:
 	@packaging/test.sh dist

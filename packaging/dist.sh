@@ -16,6 +16,7 @@ cmake --preset portable -B "$build/release" -DFACETMILL_LIBRARIES="$build/librar
 cmake --build "$build/release" -j "$jobs" --target facetmill_static
 
 version=$(cat VERSION)
+rm -f "$out"/facetmill-* "$out/SHA256SUMS"
 program=$out/facetmill-$version-linux-x86_64
 strip -o "$program" "$build/release/facetmill_static"
 python3 packaging/linux/sbom.py "$program" "$program.spdx.json"
