@@ -2,7 +2,8 @@
 #
 #   make          build build/release/facetmill
 #   make deps     install the Debian packages that are missing (tools/deps.sh --list names them)
-#   make demo     build, process a real scan and say where the results are
+#   make demo     process a real scan and say where the results are, with an installed facetmill of this version, else
+#                 with one that is built
 #   make test     build and run all tests                    (PRESET=debug, asan, tsan or ci for other builds)
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
@@ -15,8 +16,9 @@
 #   make pictures all pictures of the manual anew: those of docs/figures, which on an unchanged tree stay as they are, and
 #                 those of the stages' pages and the gallery, with the site around them
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
-#   make deb      a Debian package in build/release
+#   make deb      the Debian packages facetmill and facetmill-doc in build/release
 #   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
+#   make reproduce   build them again from a clone of this commit, and compare the bytes with dist/
 #   make test-dist   install these packages as users do, and run them (needs root for chroot)
 #   make format   run clang-format over the sources
 #   make check-style   the layers, clang-format, clang-tidy, and statements separated by commas
@@ -31,7 +33,7 @@ TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist test-dist format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist reproduce test-dist format check-layers check-style clean
 all: build
 
 deps:
@@ -46,9 +48,14 @@ build: configure
 tests: configure
 	@cmake --build --preset $(PRESET) -j $(JOBS)
 
-demo: build
+# An installed facetmill of this version; empty if there is none.
+INSTALLED := $(if $(filter demo,$(MAKECMDGOALS)),$(shell \
+    [ "$$(facetmill --version 2>&1)" = "facetmill $$(cat VERSION)" ] && command -v facetmill))
+
+demo: $(if $(INSTALLED),,build)
 	@mkdir -p out
-	$(BUILD)/facetmill run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
+	$(if $(INSTALLED),@echo "$(INSTALLED) is of this version and is used. make build builds from these sources.")
+	$(or $(INSTALLED),$(BUILD)/facetmill) run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
 	@echo
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
@@ -103,10 +110,14 @@ install: build
 	cmake --install $(BUILD) --prefix $(PREFIX)
 
 deb: build
+	@tools/deps.sh --deb
 	cd $(BUILD) && cpack -G DEB
 
 dist: deps
 	@packaging/dist.sh dist
+
+reproduce:
+	@packaging/reproduce.sh dist
 
 test-dist:
 	@packaging/test.sh dist

@@ -1,9 +1,4 @@
 # Everything comes from Debian's packages; nothing is downloaded. The names of the packages: tools/deps.sh.
-if(FACETMILL_STATIC)
-  # packaging/linux/libraries.sh builds the libraries that Debian packages only as shared ones.
-  list(PREPEND CMAKE_PREFIX_PATH ${FACETMILL_LIBRARIES})
-  set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
-endif()
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(fmt REQUIRED)
@@ -35,13 +30,6 @@ target_link_libraries(facetmill_dependencies INTERFACE
   Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json ${YAML_CPP_LIBRARY} CLI11::CLI11 Eigen3::Eigen PkgConfig::NETTLE
   ZLIB::ZLIB PNG::PNG JPEG::JPEG PkgConfig::WEBP PkgConfig::ZSTD EXPAT::EXPAT PkgConfig::SECCOMP
   meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
-if(FACETMILL_STATIC)
-  # From 1.3 on, libwebp keeps its colour conversion in a library of its own.
-  find_library(SHARPYUV_LIBRARY sharpyuv)
-  if(SHARPYUV_LIBRARY)
-    target_link_libraries(facetmill_dependencies INTERFACE ${SHARPYUV_LIBRARY})
-  endif()
-endif()
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})
 
 add_library(facetmill_cgal_dependencies INTERFACE)

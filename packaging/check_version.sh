@@ -1,5 +1,6 @@
 #!/bin/sh
-# check_version.sh: VERSION is the newest version of the changelog, and a tag of this commit, if there is one, names it.
+# check_version.sh: VERSION is the newest version of the changelog and that of the recipes, and a tag of this commit, if
+# there is one, names it.
 # Between releases, the changelog begins with "Unreleased".
 set -eu
 cd "$(dirname "$0")/.."
@@ -10,6 +11,10 @@ if [ "$changes" != "$version" ] && { [ "$changes" != Unreleased ] || [ -n "$tagg
     echo "VERSION says $version, and CHANGELOG.md begins with $changes" >&2
     exit 1
 fi
+for file in packaging/ci/action.yml packaging/recipes/PKGBUILD packaging/recipes/facetmill.nix packaging/recipes/facetmill.rb \
+    packaging/recipes/meta.yaml; do
+    grep -qF "$version" "$file" || { echo "VERSION says $version, and $file has another" >&2 && exit 1; }
+done
 for tag in $tagged; do
     case $tag in
     "v$version") ;;

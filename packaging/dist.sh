@@ -12,12 +12,13 @@ cd "$top"
 packaging/check_version.sh
 
 packaging/linux/libraries.sh "$build/libraries"
-cmake --preset portable -B "$build/portable" -DFACETMILL_LIBRARIES="$build/libraries" --log-level=NOTICE
-cmake --build "$build/portable" -j "$jobs" --target facetmill
+cmake --preset portable -B "$build/release" -DFACETMILL_LIBRARIES="$build/libraries" --log-level=NOTICE
+cmake --build "$build/release" -j "$jobs" --target facetmill_static
 
 version=$(cat VERSION)
+rm -f "$out"/facetmill-* "$out/SHA256SUMS"
 program=$out/facetmill-$version-linux-x86_64
-strip -o "$program" "$build/portable/facetmill"
+strip -o "$program" "$build/release/facetmill_static"
 python3 packaging/linux/sbom.py "$program" "$program.spdx.json"
 python3 packaging/python/wheel.py "$program" x86_64 "$out"
 if command -v npm >/dev/null; then

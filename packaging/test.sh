@@ -7,6 +7,14 @@ version=$(cat "$here/../VERSION")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 say() { echo "== $*"; }
+refuses() { # refuses WORD COMMAND...: the command fails with WORD among its messages
+    word=$1 && shift
+    if "$@" 2>"$work/error" || ! grep -q "$word" "$work/error"; then
+        cat "$work/error" >&2
+        echo "expected to fail with $word: $*" >&2
+        exit 1
+    fi
+}
 (cd "$dist" && sha256sum --quiet -c SHA256SUMS)
 
 say "static executable in an empty root"
@@ -19,8 +27,22 @@ chroot "$root" /facetmill pipe -q generate torus ! split midpoint ! write a.glb 
 "$program" diff "$root/a.glb" "$root/a.draco.glb" --max 0.1% --ignore counts,attributes,document >/dev/null
 chmod a-w "$root"
 chroot --userspec=65534:65534 "$root" /facetmill info /a.glb >/dev/null
-! chroot --userspec=65534:65534 "$root" /facetmill pipe -q generate cube ! write b.glb 2>"$work/error"
-grep -q 'E-WRITE\|E-OUTPUT' "$work/error" || { cat "$work/error" && exit 1; }
+refuses E-WRITE chroot --userspec=65534:65534 "$root" /facetmill pipe -q generate cube ! write b.glb
+
+say "150 + 140 bytes of folders, no HOME, a cache without a folder"
+deep=$(printf 'a%.0s' $(seq 150))/$(printf 'b%.0s' $(seq 140))
+mkdir -p "$root/$deep" && cp "$root/a.glb" "$root/$deep/"
+env -i "$(command -v chroot)" "$root" /facetmill pipe -q --report "/$deep/r.html" load "/$deep/a.glb" ! write "/$deep/b.glb"
+refuses 'set FACETMILL_CACHE' env -i "$(command -v chroot)" "$root" /facetmill pipe -q --cache generate cube ! measure
+
+if command -v strace >/dev/null; then
+    say "no lookup of a library at start; a kernel without the calls that came after 4.18"
+    strace -f -o "$work/trace" "$program" --version >/dev/null
+    if grep '[.]so' "$work/trace"; then exit 1; fi
+    late=landlock_create_ruleset,landlock_add_rule,landlock_restrict_self,openat2,faccessat2,clone3,close_range,pidfd_open,rseq
+    strace -f -o /dev/null -e "inject=$late:error=ENOSYS" "$program" pipe -q generate torus ! split midpoint ! write "$work/old.glb" 2>/dev/null
+    cmp "$work/old.glb" "$root/a.glb"
+fi
 
 say "wheel in a new environment"
 python3 -m venv "$work/venv"
@@ -32,6 +54,12 @@ if command -v npm >/dev/null; then
     mkdir "$work/project" && cp "$here/npm/tests/test.mjs" "$work/project"
     (cd "$work/project" && npm init -y >/dev/null && npm install --silent "$dist/facetmill-$version.tgz" "$dist/facetmill-linux-x64-$version.tgz" &&
         node test.mjs)
+    cp "$here/npm/tests/vite.mjs" "$root/a.glb" "$work/project"
+    if (cd "$work/project" && npm install --silent vite 2>/dev/null); then
+        (cd "$work/project" && node vite.mjs)
+    else
+        echo "Vite cannot be installed: its plugin is not tested" >&2
+    fi
 else
     echo "npm is missing: not tested" >&2
 fi

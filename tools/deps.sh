@@ -1,10 +1,10 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz]
+# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
 # shells and Meson, a second Draco reader, node for the glTF validator and axe-core, and clang for the style; --bench adds
 # what the benchmarks use, --site what the manual is made with, --browser the browser that tests open pages in, --fuzz what
-# libFuzzer needs.
+# libFuzzer needs, --deb what a Debian package is made with.
 set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
@@ -13,6 +13,7 @@ build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohman
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"
+deb="dpkg-dev file"
 site="mkdocs mkdocs-material python3-yaml"
 browser="chromium"
 optional="ccache python3-yaml zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
@@ -26,7 +27,8 @@ for argument in "$@"; do
     --site) wanted="$wanted $site" ;;
     --browser) wanted="$wanted $browser" ;;
     --fuzz) wanted="$wanted $fuzz" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz]" >&2; exit 2 ;;
+    --deb) wanted="$wanted $deb" ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb]" >&2; exit 2 ;;
     esac
 done
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# libraries.sh PREFIX: builds static libraries from Debian's sources, in PREFIX/lib, with their headers in PREFIX/include.
+# libraries.sh PREFIX: builds static libraries from Debian's sources, in PREFIX/lib, of the versions that are installed.
 # Debian packages these five only as shared libraries. All others that facetmill links have a static library in their
 # Debian package. PREFIX/sources.txt lists the source package and version of all: the licences of facetmill's libraries
 # ask that people can get exactly these sources. A library that PREFIX already has in the wanted version is kept.
@@ -27,14 +27,18 @@ CONF
 export APT_CONFIG="$apt/apt.conf"
 apt-get update -qq
 
-fetch() { # fetch PACKAGE: unpacks its source, and sets `source`
-    version=$(apt-cache showsrc "$1" | sed -n 's/^Version: //p' | sort -V | tail -1)
-    rm -rf "$prefix/build/$1" && mkdir -p "$prefix/build/$1"
-    (cd "$prefix/build/$1" && apt-get source -qq "$1=$version" >/dev/null 2>&1)
-    source=$(find "$prefix/build/$1" -mindepth 1 -maxdepth 1 -type d)
+fetch() { # fetch SOURCE PACKAGE: unpacks the source of the installed package, and sets `source`; false: built before
+    version=$(dpkg-query -W -f '${source:Version}' "$2")
     echo "$1 $version" >>"$prefix/sources.txt.new"
     grep -qx "$1 $version" "$prefix/sources.txt" 2>/dev/null && [ -e "$prefix/build/$1.built" ] && return 1
     echo "building $1 $version" >&2
+    rm -rf "$prefix/build/$1" && mkdir -p "$prefix/build/$1"
+    (cd "$prefix/build/$1" && apt-get source -qq "$1=$version" >"$prefix/build/$1.log" 2>&1) || {
+        tail -3 "$prefix/build/$1.log" >&2
+        echo "Debian has no source of $1 $version any more: apt-get install --only-upgrade $2" >&2
+        exit 1
+    }
+    source=$(find "$prefix/build/$1" -mindepth 1 -maxdepth 1 -type d)
 }
 
 with_cmake() { # with_cmake PACKAGE [OPTION...]
@@ -50,22 +54,22 @@ with_cmake() { # with_cmake PACKAGE [OPTION...]
 }
 
 rm -f "$prefix/sources.txt.new"
-if fetch fmtlib; then
+if fetch fmtlib libfmt-dev; then
     with_cmake fmtlib -DFMT_TEST=OFF -DFMT_DOC=OFF && cmake --install "$prefix/build/fmtlib/build" >/dev/null
     touch "$prefix/build/fmtlib.built"
 fi
-if fetch meshoptimizer; then
+if fetch meshoptimizer libmeshoptimizer-dev; then
     with_cmake meshoptimizer && cmake --install "$prefix/build/meshoptimizer/build" >/dev/null
     touch "$prefix/build/meshoptimizer.built"
 fi
-if fetch onetbb; then
+if fetch onetbb libtbb-dev; then
     # Without the lookups of other libraries at start: a static program has no use for them.
     sed -i '1i #define __TBB_WEAK_SYMBOLS_PRESENT 0' "$source/src/tbb/dynamic_link.cpp"
     with_cmake onetbb -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_EXAMPLES=OFF \
         "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. -U__TBB_USE_ITT_NOTIFY" && cmake --install "$prefix/build/onetbb/build" >/dev/null
     touch "$prefix/build/onetbb.built"
 fi
-if fetch openmesh; then
+if fetch openmesh libopenmesh-dev; then
     # Debian's patch removes the static libraries: its objects are put into archives instead.
     with_cmake openmesh -DBUILD_APPS=OFF -DOPENMESH_BUILD_UNIT_TESTS=OFF -DOPENMESH_DOCS=OFF -DBUILD_SHARED_LIBS=ON
     for part in Core Tools; do
@@ -79,7 +83,7 @@ compile() { # compile SOURCE OBJECT [OPTION...]
     from=$1 to=$2 && shift 2
     case $from in *.c) "${CC:-gcc}" -O2 -fPIC "$@" -c "$from" -o "$to" ;; *) "${CXX:-g++}" -O2 -fPIC -std=c++17 "$@" -c "$from" -o "$to" ;; esac
 }
-if fetch tinygltf; then
+if fetch tinygltf libtinygltf-dev; then
     # facetmill decodes images with other libraries, so tinygltf needs none.
     compile "$source/tiny_gltf.cc" "$prefix/build/tinygltf/tiny_gltf.o" -DTINYGLTF_NO_STB_IMAGE -DTINYGLTF_NO_STB_IMAGE_WRITE
     rm -f "$prefix/lib/libtinygltf.a" && "${AR:-ar}" rcsD "$prefix/lib/libtinygltf.a" "$prefix/build/tinygltf/tiny_gltf.o"

@@ -19,6 +19,8 @@ function pack(folder, description) {
   fs.writeFileSync(path.join(folder, 'package.json'), JSON.stringify({ ...description, ...common }, null, 2) + '\n');
   fs.copyFileSync(path.join(top, 'LICENSE'), path.join(folder, 'LICENSE'));
   fs.copyFileSync(path.join(here, 'README.md'), path.join(folder, 'README.md'));
+  for (const file of fs.readdirSync(folder, { recursive: true }).map((f) => path.join(folder, f)))  // not those of the umask
+    fs.chmodSync(file, fs.statSync(file).isDirectory() || file.includes('/bin/') ? 0o755 : 0o644);
   const name = execFileSync('npm', ['pack', '--silent', '--pack-destination', path.resolve(out), folder], { encoding: 'utf8' });
   console.log(path.join(out, name.trim()));
 }
@@ -57,7 +59,6 @@ for (let i = 0; i < programs.length; i += 2) {
   const [program, cpu] = [programs[i], programs[i + 1]], name = `facetmill-linux-${cpu}`, folder = path.join(work, name);
   fs.mkdirSync(path.join(folder, 'bin'), { recursive: true });
   fs.copyFileSync(program, path.join(folder, 'bin/facetmill'));
-  fs.chmodSync(path.join(folder, 'bin/facetmill'), 0o755);
   pack(folder, { name, description: `The program of facetmill for Linux on ${cpu}`, os: ['linux'], cpu: [cpu], files: ['bin'] });
   optionalDependencies[name] = version;
   if (cpu === process.arch) fs.writeFileSync(path.join(main, 'reports.d.ts'), declarations(path.resolve(program)));

@@ -3,6 +3,7 @@
 #include "base/hash.hpp"
 #include "base/json.hpp"
 #include "io/bytes.hpp"
+#include "io/outputs/output_files.hpp"
 #include "io/outputs/outputs.hpp"
 #include "platform/file_bytes.hpp"
 #include "platform/file_lock.hpp"
@@ -140,7 +141,8 @@ Journal::Journal(const fs::path& folder, const std::string& name)
     fs::create_directories(folder, error);
     if (error)
         throw Error(ErrorKind::output, "E-DIRECTORY",
-                    fmt::format("the directory '{}' cannot be made: {}", folder.string(), error.message()));
+                    fmt::format("the directory '{}' cannot be made: {}", folder.string(), error.message()),
+                    io::hint_to_write(folder, error.value()));
     open_locked();
     read();
 }

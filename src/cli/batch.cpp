@@ -60,6 +60,13 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_warning_options(arguments, options.common);
 }
 
+/// The number of assets that have ended.
+std::size_t done_of(const batch::Summary& so_far) {
+    return so_far.outcomes.size() -
+           static_cast<std::size_t>(std::ranges::count(so_far.outcomes, batch::Outcome::Verdict::not_run,
+                                                       &batch::Outcome::verdict));
+}
+
 /// A line that is redrawn whenever an asset ends: progress of the batch and remaining time.
 class BatchBar {
   public:
@@ -67,9 +74,9 @@ class BatchBar {
 
     void draw(const batch::Summary& so_far) {
         if (!shown_) return;
-        std::size_t done = 0, worked = 0, failed = 0;
+        std::size_t worked = 0, failed = 0;
+        const std::size_t done = done_of(so_far);
         for (const auto& out : so_far.outcomes) {
-            done += out.verdict != batch::Outcome::Verdict::not_run;
             worked += out.verdict != batch::Outcome::Verdict::not_run && !out.kept;
             failed += out.verdict == batch::Outcome::Verdict::failed;
         }
@@ -94,7 +101,8 @@ class BatchBar {
 };
 
 /// Prints the messages of a finished asset together.
-void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Console& console) {
+void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const batch::Summary& so_far,
+                const Console& console) {
     WarningLimiter few(console);
     if (!out.kept)
         for (const auto& warning : out.warnings) few.tell(warning);
@@ -103,6 +111,8 @@ void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Cons
     console.event({{"level", "info"},
                    {"event", "asset"},
                    {"asset", asset.name},
+                   {"number", done_of(so_far)},
+                   {"of", so_far.outcomes.size()},
                    {"exit_code", out.exit_code},
                    {"kept", out.kept},
                    {"outputs", out.outputs},
@@ -139,7 +149,7 @@ batch::Listener listener_for(const PipelineOptions& options, const Folders& plac
     listener.on_finished = [&console, bar](const batch::Asset& asset, const batch::Outcome& out,
                                            const batch::Summary& so_far) {
         bar->clear();
-        tell_asset(asset, out, console);
+        tell_asset(asset, out, so_far, console);
         bar->draw(so_far);
     };
     if (console.verbose || console.json)

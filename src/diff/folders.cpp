@@ -5,6 +5,7 @@
 #include "base/text/short_names.hpp"
 #include "base/text/words.hpp"
 #include "diff/overview.hpp"
+#include "facetmill_version.hpp"
 #include "io/codec.hpp"
 #include "report/html_parts.hpp"
 #include "report/markdown_parts.hpp"

@@ -3,6 +3,7 @@
 #include "base/text/short_names.hpp"
 #include "diff/lines.hpp"
 #include "diff/overview.hpp"
+#include "facetmill_version.hpp"
 #include "report/html_parts.hpp"
 #include "report/html_sections.hpp"
 #include "report/markdown_parts.hpp"

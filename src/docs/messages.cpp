@@ -1,6 +1,7 @@
 #include "docs/messages.hpp"
 
 #include "docs/describe.hpp"
+#include "facetmill_version.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

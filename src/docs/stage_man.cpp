@@ -1,5 +1,6 @@
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
+#include "facetmill_version.hpp"
 #include "stage/common_keys.hpp"
 
 #include <algorithm>

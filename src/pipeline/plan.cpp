@@ -4,6 +4,7 @@
 #include "base/message_ids.hpp"
 #include "base/text/spelling.hpp"
 #include "base/text/words.hpp"
+#include "facetmill_version.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"

@@ -1,6 +1,7 @@
 #include "platform/build_id.hpp"
 
 #include "base/hash.hpp"
+#include "facetmill_version.hpp"
 
 #include <algorithm>
 #include <cstdint>

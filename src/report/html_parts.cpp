@@ -1,6 +1,7 @@
 #include "report/html_parts.hpp"
 
 #include "base/text/markup.hpp"
+#include "facetmill_version.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
+#include "facetmill_version.hpp"
 #include "report/check_text.hpp"
 #include "report/glance.hpp"
 #include "report/markdown_parts.hpp"

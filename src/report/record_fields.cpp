@@ -1,5 +1,6 @@
 #include "report/record_fields.hpp"
 
+#include "facetmill_version.hpp"
 #include "report/contents.hpp"
 #include "report/render.hpp"
 #include "report/schema_forms.hpp"

@@ -92,6 +92,13 @@ TEST_CASE("one batch at a time holds a journal", "[batch]") {
     CHECK(failure([&] { const Journal other(folder.dir / "out", "q.yaml"); }) == "nothing");
 }
 
+TEST_CASE("a journal without a folder says where it could be", "[batch]") {
+    const Folder folder;
+    CHECK(failure([&] {
+              const Journal journal(folder.dir / "in.ply/out", "p.yaml");
+          }).ends_with("with another --output-dir"));
+}
+
 TEST_CASE("a journal removes only what is as it was written", "[batch]") {
     const Folder folder;
     Journal journal(folder.dir / "out", "p.yaml");

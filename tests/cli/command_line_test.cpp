@@ -1,5 +1,6 @@
 #include "cli/command.hpp"
 
+#include "facetmill_version.hpp"
 #include "support/catch.hpp"
 #include "support/temporary.hpp"
 

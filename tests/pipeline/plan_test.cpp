@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "facetmill_version.hpp"
 #include "pipeline/expressions.hpp"
 #include "pipeline/planner.hpp"
 #include "support/planning.hpp"

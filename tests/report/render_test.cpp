@@ -2,6 +2,7 @@
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
+#include "facetmill_version.hpp"
 #include "mesh/shapes.hpp"
 #include "report/check_text.hpp"
 #include "report/render.hpp"

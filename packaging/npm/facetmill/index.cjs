@@ -14,17 +14,57 @@ class FacetmillError extends Error {
   }
 }
 
+const systems = ['linux-x64', 'linux-arm64'];
+const machines = { 0x3e: 'x64', 0xb7: 'arm64' };  // e_machine of an ELF file
+
+function packaged(system) {
+  try {
+    return require.resolve(`facetmill-${system}/bin/facetmill`);
+  } catch {
+    return undefined;
+  }
+}
+
+function missing(system) {
+  const other = systems.find(packaged), built = 'or set FACETMILL to a program that you have built';
+  if (!systems.includes(system)) return `facetmill has no program for ${system} yet: use Linux, a container or WSL, ${built}`;
+  if (other) return `facetmill-${other} is installed, and this machine needs facetmill-${system}: ` +
+      'run npm install here, in place of a copied node_modules';
+  return `facetmill has no program for ${system} here: install the package facetmill-${system} ` +
+      `(npm leaves it out with --no-optional), ${built}`;
+}
+
+/** Throws if the file is a program for another architecture, which a shell would run as a script. */
+function checkArchitecture(program) {
+  const header = Buffer.alloc(20);
+  let file;
+  try {
+    file = fs.openSync(program);
+  } catch {
+    return;  // starting it says why
+  }
+  fs.readSync(file, header, 0, 20, 0);
+  fs.closeSync(file);
+  const machine = machines[header.readUInt16LE(18)] ?? 'another system';
+  if (header.toString('latin1', 0, 4) !== '\x7fELF' || machine === process.arch) return;
+  const emulator = { x64: 'x86_64', arm64: 'aarch64' }[machine];
+  if (fs.existsSync(`/proc/sys/fs/binfmt_misc/qemu-${emulator}`)) return;
+  throw new FacetmillError(`${program} is the file for ${machine}: install facetmill-${process.platform}-${process.arch}`);
+}
+
 /** The path of the program: $FACETMILL, or that of the package for this system. */
 function executable() {
-  if (process.env.FACETMILL) return process.env.FACETMILL;
-  const system = `${process.platform}-${process.arch}`;
-  const file = `facetmill-${system}/bin/facetmill${process.platform === 'win32' ? '.exe' : ''}`;
-  try {
-    return require.resolve(file);
-  } catch {
-    throw new FacetmillError(`facetmill has no program for ${system} here: install the package facetmill-${system} ` +
-        '(npm leaves it out with --no-optional), or set FACETMILL to a program that you have built');
-  }
+  const system = `${process.platform}-${process.arch}`, program = process.env.FACETMILL || packaged(system);
+  if (!program) throw new FacetmillError(missing(system));
+  checkArchitecture(program);
+  return program;
+}
+
+/** The error of a program that could not be started. */
+function unstarted(error) {
+  if (error.name === 'AbortError') return error;
+  const hint = error.code === 'EACCES' ? ': chmod +x it, or install it in a file system that is not mounted noexec' : '';
+  return new FacetmillError(`facetmill cannot be started: ${error.message}${hint}`);
 }
 
 function call(args, { input, cwd, onProgress, signal } = {}) {
@@ -49,7 +89,7 @@ function call(args, { input, cwd, onProgress, signal } = {}) {
       child.stdin.on('error', () => {});  // a program that ends early does not read all of it
       child.stdin.end(input);
     }
-    child.on('error', reject);
+    child.on('error', (error) => reject(unstarted(error)));
     child.on('close', (code, ended) => resolve({ code: code ?? 128 + os.constants.signals[ended],
       output: Buffer.concat(output).toString('utf8'), errors, others: others.join('\n') }));
   });
@@ -108,4 +148,4 @@ const diff = (a, b, options = []) => json(['diff', '--json', '--log', 'json', ..
 /** All stages with their options. */
 const stages = () => json(['stages', '--json']);
 
-module.exports = { FacetmillError, diff, executable, info, pipe, run, stages };
+module.exports = { FacetmillError, diff, executable, info, pipe, run, stages, unstarted };

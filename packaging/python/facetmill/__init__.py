@@ -11,7 +11,9 @@ from ._frames import to_pandas
 from ._mesh import Mesh, load, save
 from ._program import Error, Progress, batch, diff, executable, info, pipe, run, stages, version
 from ._show import show
+from ._stages import FieldDescription, OptionDescription, StageDescription
 from .reports import Batch, Diff, Info, Report
 
-__all__ = ['Batch', 'Diff', 'Error', 'Info', 'Mesh', 'Progress', 'Report', 'batch', 'diff', 'executable', 'info', 'load',
-           'pipe', 'run', 'save', 'show', 'stages', 'to_pandas', 'version']
+__all__ = ['Batch', 'Diff', 'Error', 'FieldDescription', 'Info', 'Mesh', 'OptionDescription', 'Progress', 'Report',
+           'StageDescription', 'batch', 'diff', 'executable', 'info', 'load', 'pipe', 'run', 'save', 'show', 'stages',
+           'to_pandas', 'version']

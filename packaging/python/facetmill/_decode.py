@@ -9,6 +9,9 @@ import sys
 import typing
 from typing import Any, Dict, Type, TypeVar
 
+if typing.TYPE_CHECKING:
+    import pandas
+
 T = TypeVar('T', bound='Record')
 
 
@@ -18,6 +21,11 @@ class Record:
     @property
     def raw(self) -> Dict[str, Any]:
         return typing.cast(Dict[str, Any], self.__dict__['_raw'])
+
+    def to_pandas(self) -> 'pandas.DataFrame':
+        """The same as facetmill.to_pandas(self)."""
+        from ._frames import to_pandas
+        return to_pandas(self)
 
     @classmethod
     def from_json(cls: Type[T], value: Dict[str, Any]) -> T:

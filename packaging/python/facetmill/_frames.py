@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Dict, List, Union
+from typing import TYPE_CHECKING, Any, Dict, List
 
-from .reports import Batch, Report
+from ._decode import Record
 
 if TYPE_CHECKING:
     import pandas
@@ -20,8 +20,8 @@ def _flat(value: Dict[str, Any], start: str = '') -> Dict[str, Any]:
     return row
 
 
-def to_pandas(report: Union[Report, Batch]) -> 'pandas.DataFrame':
-    """A row per stage of a report, or per asset of a batch. Nested values become columns such as after.faces."""
+def to_pandas(record: Record) -> 'pandas.DataFrame':
+    """A row per stage of a report or per asset of a batch, else one row. Nested values become columns: after.faces."""
     import pandas
-    rows: List[Dict[str, Any]] = report.raw['assets' if isinstance(report, Batch) else 'stages']
+    rows: List[Dict[str, Any]] = record.raw.get('stages') or record.raw.get('assets') or [record.raw]
     return pandas.DataFrame([_flat(row) for row in rows])

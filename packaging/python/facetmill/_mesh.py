@@ -7,7 +7,7 @@ import subprocess
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple
 
-from ._program import Error, PathLike, executable
+from ._program import PathLike, error_of, events, start
 
 if TYPE_CHECKING:
     import numpy
@@ -22,7 +22,7 @@ _NAMES = {'i1': 'char', 'u1': 'uchar', 'i2': 'short', 'u2': 'ushort', 'i4': 'int
 
 @dataclass
 class Mesh:
-    """A mesh of triangles.
+    """A mesh of triangles. The arrays of a loaded mesh are views of the bytes that the program wrote.
 
     `vertices` is n x 3, `faces` m x 3 with indices of vertices. Attributes are arrays with one value per vertex or
     face, by their names in PLY: nx, ny, nz, red, green, blue, s, t and others.
@@ -35,10 +35,15 @@ class Mesh:
 
 
 def _program(arguments: List[str], data: Optional[bytes]) -> bytes:
-    done = subprocess.run([executable(), *arguments], input=data, capture_output=True)
-    if done.returncode != 0:
-        raise Error(done.stderr.decode('utf8', 'replace').strip(), exit_code=done.returncode)
-    return done.stdout
+    """Runs the program on bytes: what it writes to standard output."""
+    process = start(['pipe', '-q', '--log', 'json', *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE)
+    with process:
+        output, said = process.communicate(data)
+    if process.returncode != 0:
+        errors, others = events(said.decode('utf8', 'replace').splitlines())
+        raise error_of(errors, others, process.returncode)
+    return bytes(output)
 
 
 def load(path: PathLike, stages: str = '', *, unit: Optional[str] = None, up: Optional[str] = None) -> Mesh:
@@ -47,7 +52,7 @@ def load(path: PathLike, stages: str = '', *, unit: Optional[str] = None, up: Op
     `stages` run in between: load('scan.ply', 'clean ! simplify 10%'). unit and up apply where the file states none.
     """
     import shlex
-    words = ['pipe', '-q', 'load', os.fspath(path)]
+    words = ['load', os.fspath(path)]
     words += (['--unit', unit] if unit else []) + (['--up', up] if up else [])
     words += (['!', *shlex.split(stages)] if stages else [])
     return _from_ply(_program([*words, '!', 'write', '-', '--format', 'ply', '--triangulate'], None))
@@ -55,7 +60,7 @@ def load(path: PathLike, stages: str = '', *, unit: Optional[str] = None, up: Op
 
 def save(mesh: Mesh, path: PathLike, *, unit: Optional[str] = None, up: Optional[str] = None) -> None:
     """Writes the mesh in the format of the path's suffix. unit and up say how the numbers are meant."""
-    words = ['pipe', '-q', 'load', '-', '--format', 'ply']
+    words = ['load', '-', '--format', 'ply']
     words += (['--unit', unit] if unit else []) + (['--up', up] if up else [])
     _program([*words, '!', 'write', os.fspath(path)], _to_ply(mesh))
 
@@ -72,9 +77,21 @@ def _header(data: bytes) -> Tuple[List[Tuple[str, int, List[List[str]]]], int]:
     return elements, end
 
 
-def _from_ply(data: bytes) -> Mesh:
+def _positions(vertices: 'Array') -> 'Array':
+    """x, y and z as one array: a view where they follow each other in one type, as facetmill writes them."""
     import numpy
-    elements, at = _header(data)
+    fields: Any = vertices.dtype.fields
+    kinds = [fields[axis] for axis in 'xyz']
+    (kind, start), size = kinds[0][:2], kinds[0][0].itemsize
+    if [k[:2] for k in kinds] != [(kind, start + axis * size) for axis in range(3)]:
+        return numpy.stack([vertices[axis] for axis in 'xyz'], axis=1)
+    return numpy.ndarray((len(vertices), 3), kind, vertices.data, start, (vertices.dtype.itemsize, size))
+
+
+def _from_ply(ply: bytes) -> Mesh:
+    import numpy
+    data = bytearray(ply)  # the arrays are views of it, and can be changed
+    elements, at = _header(ply)
     found: Dict[str, Any] = {}
     for name, count, properties in elements:
         row = []
@@ -90,7 +107,7 @@ def _from_ply(data: bytes) -> Mesh:
     faces = found.get('face')
     corners = next((n for n in faces.dtype.names if n in ('vertex_indices', 'vertex_index')), '') if faces is not None else ''
     return Mesh(
-        numpy.stack([vertices[axis] for axis in 'xyz'], axis=1),
+        _positions(vertices),
         numpy.zeros((0, 3), 'i4') if faces is None else faces[corners],
         {n: vertices[n] for n in vertices.dtype.names if n not in ('x', 'y', 'z')},
         {} if faces is None else {n: faces[n] for n in faces.dtype.names if n != corners and not n.startswith('#')})

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import importlib.metadata
 import json
 import os
+import platform
 import shutil
 import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import IO, Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import reports
+from ._stages import StageDescription
+
+# Of an ELF file's header: e_machine.
+_MACHINES = {b'\x3e\x00': 'x86_64', b'\xb7\x00': 'aarch64'}
 
 PathLike = Union[str, 'os.PathLike[str]']
 Pipeline = Union[PathLike, Mapping[str, Any]]
@@ -20,7 +27,7 @@ Pipeline = Union[PathLike, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Progress:
-    """A stage that begins (`done` is False) or has ended."""
+    """A stage that begins (`done` is False) or has ended. In a batch: an asset that has ended."""
 
     name: str
     number: int
@@ -66,11 +73,59 @@ def executable() -> str:
         pass
     on_path = shutil.which('facetmill')
     if on_path is None:
-        raise FileNotFoundError('there is no program facetmill: install the wheel for this system, or set FACETMILL')
+        raise FileNotFoundError(f'there is no program facetmill for {platform.system()} on {platform.machine()}: '
+                                'pip install facetmill, or set FACETMILL to a program that you have built')
     return on_path
 
 
-def _events(lines: Any, on_progress: Optional[OnProgress]) -> Tuple[List[Dict[str, Any]], str]:
+def start(arguments: Sequence[str], **options: Any) -> 'subprocess.Popen[Any]':
+    """Starts the program. An error of the system becomes a sentence that says what to do."""
+    program = executable()
+    try:
+        return subprocess.Popen([program, *arguments], **options)
+    except OSError as error:
+        why = _why_not_started(program, error)
+        if why is None:
+            raise
+        raise type(error)(error.errno, why, program) from None
+
+
+def _why_not_started(program: str, error: OSError) -> Optional[str]:
+    """What keeps the program from starting; None if the system says it well enough."""
+    if error.errno == errno.ENOEXEC:
+        with open(program, 'rb') as file:
+            made_for = _MACHINES.get(file.read(20)[18:20], 'another system')
+        return (f'this is the file for {made_for}, and this machine is {platform.machine()}: '
+                'pip install --force-reinstall facetmill takes the right one')
+    if error.errno == errno.EACCES:
+        return 'the program may not be executed: chmod +x it, or install it in a file system that is not mounted noexec'
+    return None
+
+
+@contextlib.contextmanager
+def _says_where_temporary_files_go() -> Iterator[None]:
+    try:
+        yield
+    except FileNotFoundError as error:
+        raise Error('there is no folder for temporary files', id='E-WRITE', exit_code=4,
+                    hint='set TMPDIR to a folder that can be written') from error
+
+
+@contextlib.contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """A folder for a report."""
+    with _says_where_temporary_files_go():
+        folder = tempfile.TemporaryDirectory(prefix='facetmill-')
+    with folder as name:
+        yield Path(name)
+
+
+def _temporary_text() -> IO[str]:
+    with _says_where_temporary_files_go():
+        return tempfile.TemporaryFile('w+', encoding='utf8')
+
+
+def events(lines: Iterable[str], on_progress: Optional[OnProgress] = None) -> Tuple[List[Dict[str, Any]], str]:
     """The errors among the program's messages, and whatever else it printed."""
     errors: List[Dict[str, Any]] = []
     others: List[str] = []
@@ -83,16 +138,21 @@ def _events(lines: Any, on_progress: Optional[OnProgress]) -> Tuple[List[Dict[st
             continue
         if event.get('level') == 'error':
             errors.append(event)
-        if event.get('event') == 'begin':
+        kind = event.get('event')
+        if kind in ('begin', 'asset'):
             number, of = event.get('number', 0), event.get('of', 0)
-            if on_progress:
-                on_progress(Progress(event['name'], number, of, False, None))
-        elif event.get('event') == 'stage' and on_progress:
+        if not on_progress:
+            continue
+        if kind == 'begin':
+            on_progress(Progress(event['name'], number, of, False, None))
+        elif kind == 'stage' and 'asset' not in event:
             on_progress(Progress(event['name'], number, of, True, event.get('faces_after')))
+        elif kind == 'asset':
+            on_progress(Progress(event['asset'], number, of, True, None))
     return errors, ''.join(others)
 
 
-def _error(errors: List[Dict[str, Any]], others: str, code: int, report: Optional[reports.Report] = None) -> Error:
+def error_of(errors: List[Dict[str, Any]], others: str, code: int, report: Optional[reports.Report] = None) -> Error:
     if not errors:
         return Error(others.strip() or f'facetmill ended with exit code {code}', exit_code=code, report=report)
     first = errors[0]
@@ -104,14 +164,14 @@ def _error(errors: List[Dict[str, Any]], others: str, code: int, report: Optiona
 def call(arguments: Sequence[str], *, text: Optional[str] = None, on_progress: Optional[OnProgress] = None,
          cwd: Optional[PathLike] = None) -> Tuple[int, str, List[Dict[str, Any]], str]:
     """Runs the program: exit code, standard output, errors, and messages that are not JSON."""
-    with tempfile.TemporaryFile('w+', encoding='utf8') as output, tempfile.TemporaryFile('w+', encoding='utf8') as given:
+    with _temporary_text() as output, _temporary_text() as given:
         if text is not None:
             given.write(text)
             given.seek(0)
-        process = subprocess.Popen([executable(), *arguments], stdout=output, stderr=subprocess.PIPE, text=True,
-                                   encoding='utf8', stdin=given if text is not None else subprocess.DEVNULL, cwd=cwd)
+        process = start(arguments, stdout=output, stderr=subprocess.PIPE, text=True, encoding='utf8',
+                        stdin=given if text is not None else subprocess.DEVNULL, cwd=cwd)
         try:
-            errors, others = _events(process.stderr, on_progress)
+            errors, others = events(process.stderr or (), on_progress)
             code = process.wait()
         except BaseException:
             process.terminate()
@@ -130,14 +190,14 @@ def _value(value: Any) -> str:
 
 def _run(arguments: List[str], check: bool, on_progress: Optional[OnProgress], text: Optional[str],
          cwd: Optional[PathLike]) -> reports.Report:
-    with tempfile.TemporaryDirectory(prefix='facetmill-') as folder:
-        path = Path(folder, 'report.json')
+    with temporary_folder() as folder:
+        path = folder / 'report.json'
         verbose = ['-v'] if on_progress else []
         code, _, errors, others = call([arguments[0], '--log', 'json', *verbose, '--report', str(path), *arguments[1:]],
                                        text=text, on_progress=on_progress, cwd=cwd)
         report = reports.Report.from_json(json.loads(path.read_text('utf8'))) if path.exists() else None
     if report is None or (check and code != 0):
-        raise _error(errors, others, code, report)
+        raise error_of(errors, others, code, report)
     return report
 
 
@@ -172,7 +232,7 @@ def pipe(stages: Union[str, Sequence[str]], *, check: bool = True, options: Sequ
 def _json(arguments: Sequence[str], allowed: Sequence[int] = (0,)) -> Any:
     code, output, errors, others = call(arguments)
     if code not in allowed:
-        raise _error(errors, others, code)
+        raise error_of(errors, others, code)
     return json.loads(output)
 
 
@@ -187,26 +247,28 @@ def diff(a: PathLike, b: PathLike, *, options: Sequence[str] = ()) -> reports.Di
 
 
 def batch(pipeline: PathLike, inputs: Union[PathLike, Sequence[PathLike]], *, output_dir: PathLike, check: bool = True,
-          options: Sequence[str] = (), **params: Any) -> reports.Batch:
-    """Runs a pipeline for each input: paths, or patterns ('scans/**/*.ply')."""
+          options: Sequence[str] = (), on_progress: Optional[OnProgress] = None, **params: Any) -> reports.Batch:
+    """Runs a pipeline for each input: paths, or patterns ('scans/**/*.ply').
+
+    Progress counts finished assets. With check=False, a batch with failed assets returns its summary.
+    """
     arguments = ['batch', '--log', 'json', *options, '--output-dir', os.fspath(output_dir)]
     for path in [inputs] if isinstance(inputs, (str, os.PathLike)) else inputs:
         arguments += ['--input', os.fspath(path)]
     for name, value in params.items():
         arguments += ['-D', f'{name}={_value(value)}']
-    with tempfile.TemporaryDirectory(prefix='facetmill-') as folder:
-        path = Path(folder, 'batch.json')
-        code, _, errors, others = call([*arguments, '--report', str(path), os.fspath(pipeline)])
+    with temporary_folder() as folder:
+        path = folder / 'batch.json'
+        code, _, errors, others = call([*arguments, '--report', str(path), os.fspath(pipeline)], on_progress=on_progress)
         summary = reports.Batch.from_json(json.loads(path.read_text('utf8'))) if path.exists() else None
     if summary is None or (check and code != 0):
-        raise _error(errors, others, code)
+        raise error_of(errors, others, code)
     return summary
 
 
-def stages() -> List[Dict[str, Any]]:
+def stages() -> List[StageDescription]:
     """All stages with their options, as `facetmill stages --json` describes them."""
-    result: List[Dict[str, Any]] = _json(['stages', '--json'])
-    return result
+    return [StageDescription.from_json(stage) for stage in _json(['stages', '--json'])]
 
 
 def version() -> str:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import html
-import tempfile
-from pathlib import Path
+import os
 from typing import Any
 
-from ._program import PathLike, _error, call
+from ._program import PathLike, call, error_of, temporary_folder
 
 
 class _View:
@@ -23,10 +22,10 @@ class _View:
 
 def show(path: PathLike, *, height: int = 640) -> Any:
     """Shows a mesh file in a notebook: its report with the 3D view, which can be turned."""
-    with tempfile.TemporaryDirectory(prefix='facetmill-') as folder:
-        page = Path(folder, 'view.html')
-        code, _, errors, others = call(['pipe', '--log', 'json', '--report', str(page), 'load', str(path), '!',
-                                        'write', str(Path(folder, 'view.glb'))])
+    with temporary_folder() as folder:
+        page = folder / 'view.html'
+        code, _, errors, others = call(['pipe', '--log', 'json', '--report', str(page), 'load', os.fspath(path), '!',
+                                        'write', str(folder / 'view.glb')])
         if code != 0:
-            raise _error(errors, others, code)
+            raise error_of(errors, others, code)
         return _View(page.read_text('utf8'), height)

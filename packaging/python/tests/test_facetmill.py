@@ -1,8 +1,10 @@
 """Run with the wheel installed: python -m unittest discover packaging/python/tests"""
 
 import os
+import platform
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import facetmill
@@ -57,12 +59,15 @@ class Facetmill(unittest.TestCase):
     def test_info_diff_batch_and_stages(self) -> None:
         self.assertEqual(facetmill.info(self.cube).volume, 1)
         self.assertTrue(facetmill.diff(self.cube, self.cube).same)
-        self.assertIn('simplify', [stage['name'] for stage in facetmill.stages()])
+        simplify = next(stage for stage in facetmill.stages() if stage.name == 'simplify')
+        self.assertIn('method', [option.name for option in simplify.options])
         pipeline = self.folder / 'p.yaml'
         pipeline.write_text('facetmill: 1\nparams: {input: {type: path}}\nstages:\n  - load: {path: "${input}", unit: mm}\n'
                             '  - write: "${input.stem}.glb"\n')
-        summary = facetmill.batch(pipeline, [self.cube], output_dir=self.folder / 'out')
+        seen = []
+        summary = facetmill.batch(pipeline, [self.cube], output_dir=self.folder / 'out', on_progress=seen.append)
         self.assertEqual((summary.counts.ok, summary.assets[0].faces_in), (1, 12))
+        self.assertEqual([(p.number, p.of, p.done) for p in seen], [(1, 1, True)])
 
     def test_arrays_there_and_back(self) -> None:
         try:
@@ -71,7 +76,8 @@ class Facetmill(unittest.TestCase):
             self.skipTest('numpy is not installed')
         mesh = facetmill.load(self.cube, 'split midpoint')
         self.assertEqual((mesh.vertices.shape, mesh.faces.shape), ((26, 3), (48, 3)))
-        mesh.vertices = mesh.vertices * 2
+        self.assertFalse(mesh.vertices.flags.owndata)
+        mesh.vertices *= 2
         mesh.vertex_attributes['quality'] = numpy.arange(26, dtype='f4')
         facetmill.save(mesh, self.folder / 'twice.ply', unit='mm')
         self.assertEqual(facetmill.info(self.folder / 'twice.ply').volume, 8)
@@ -79,6 +85,14 @@ class Facetmill(unittest.TestCase):
         self.assertEqual(again.vertex_attributes['quality'].tolist(), list(range(26)))
         mesh.faces = mesh.faces + 1
         self.assertRaises(ValueError, facetmill.save, mesh, self.folder / 'bad.ply')
+
+    def test_arrays_fail_with_id_and_hint(self) -> None:
+        with self.assertRaises(facetmill.Error) as caught:
+            facetmill.load(self.folder / 'cuba.stl')
+        self.assertEqual((caught.exception.id, caught.exception.exit_code), ('E-FILE', 3))
+        with self.assertRaises(facetmill.Error) as caught:
+            facetmill.load(self.cube, 'simplfy 10%')
+        self.assertIn('simplify', caught.exception.hint)
 
     def test_show_is_a_frame(self) -> None:
         self.assertTrue(facetmill.show(self.cube)._repr_html_().startswith('<iframe'))
@@ -88,18 +102,42 @@ class Facetmill(unittest.TestCase):
             import pandas  # noqa: F401
         except ImportError:
             self.skipTest('pandas is not installed')
-        frame = facetmill.to_pandas(facetmill.pipe(['load', str(self.cube), '--unit', 'mm', '!', 'measure']))
-        self.assertEqual(list(frame['after.faces']), [12, 12])
+        report = facetmill.pipe(['load', str(self.cube), '--unit', 'mm', '!', 'measure'])
+        self.assertEqual(list(facetmill.to_pandas(report)['after.faces']), [12, 12])
+        self.assertEqual(list(report.to_pandas()['stage']), ['load', 'measure'])
+        self.assertEqual(list(facetmill.info(self.cube).to_pandas()['volume']), [1])
+
+    def start(self, program: Path) -> str:
+        """What is said when another program is started."""
+        with unittest.mock.patch.dict(os.environ, FACETMILL=str(program)), self.assertRaises(OSError) as caught:
+            facetmill.version()
+        return str(caught.exception)
 
     def test_the_program_of_the_environment_comes_first(self) -> None:
-        before = os.environ.get('FACETMILL')
-        os.environ['FACETMILL'] = '/nowhere/facetmill'
-        try:
-            self.assertRaises(FileNotFoundError, facetmill.version)
-        finally:
-            os.environ.pop('FACETMILL')
-            if before:
-                os.environ['FACETMILL'] = before
+        self.assertIn('/nowhere/facetmill', self.start(Path('/nowhere/facetmill')))
+
+    def test_a_program_that_cannot_start_says_why(self) -> None:
+        program = self.folder / 'facetmill'
+        program.write_bytes(b'\x7fELF\x02\x01\x01' + bytes(9) + b'\x02\x00\x16\x00' + bytes(108))  # IBM z
+        self.assertIn('chmod +x', self.start(program))
+        program.chmod(0o755)
+        self.assertIn('this is the file for another system', self.start(program))
+        program.write_bytes(b'\x7fELF\x02\x01\x01' + bytes(9) + b'\x02\x00\xb7\x00' + bytes(108))
+        if platform.machine() == 'x86_64' and not Path('/proc/sys/fs/binfmt_misc/qemu-aarch64').exists():
+            self.assertIn('this is the file for aarch64, and this machine is x86_64', self.start(program))
+
+    def test_temporary_files_need_a_folder(self) -> None:
+        with unittest.mock.patch('tempfile._candidate_tempdir_list', lambda: ['/nowhere']), \
+                unittest.mock.patch('tempfile.tempdir', None), self.assertRaises(facetmill.Error) as caught:
+            facetmill.info(self.cube)
+        self.assertIn('TMPDIR', caught.exception.hint)
+
+    def test_a_long_path_is_read_and_written(self) -> None:
+        folder = self.folder / ('a' * 150) / ('b' * 150)
+        folder.mkdir(parents=True)
+        report = facetmill.pipe(['load', str(self.cube), '--unit', 'mm', '!', 'write', str(folder / 'c.glb')])
+        self.assertTrue(report.passed)
+        self.assertEqual(facetmill.info(folder / 'c.glb').faces, 12)
 
 
 if __name__ == '__main__':

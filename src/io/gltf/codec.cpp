@@ -5,6 +5,7 @@
 #include "base/hash.hpp"
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
+#include "facetmill_version.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/contents/largest_pose.hpp"

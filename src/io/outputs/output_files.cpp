@@ -24,6 +24,8 @@ constexpr const char* write_elsewhere =
 } // namespace
 
 std::string hint_to_write(const fs::path& target, int error) {
+    if (error == ENAMETOOLONG)
+        return "give a shorter path: each name in it may have 255 bytes, and all of it 4095";
     const std::string hint = sandbox_hint(target, error);
     return hint.empty() ? write_elsewhere : hint;
 }

@@ -2,6 +2,7 @@
 
 #include "base/json.hpp"
 #include "base/text/words.hpp"
+#include "facetmill_version.hpp"
 #include "geometry/render/srgb.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/attributes.hpp"

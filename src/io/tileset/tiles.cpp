@@ -1,6 +1,7 @@
 #include "io/tileset/tiles.hpp"
 
 #include "base/json.hpp"
+#include "facetmill_version.hpp"
 #include "io/convert.hpp"
 #include "io/images/image_files.hpp"
 #include "io/tileset/implicit.hpp"

@@ -101,6 +101,12 @@ TEST_CASE("targets that cannot be written are refused before anything is", "[io]
           fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has this name | write "
                       "elsewhere: under another path, or (run, batch, pipe) with another --output-dir",
                       (dir / "file").string()));
+    const std::string long_name(300, 'n');
+    CHECK(failure([&] { outputs.add(dir / long_name / "x", bytes_of("x")); }) ==
+          fmt::format(
+              "output [E-DIRECTORY] the directory '{}' cannot be made: File name too long | give a shorter "
+              "path: each name in it may have 255 bytes, and all of it 4095",
+              (dir / long_name).string()));
     outputs.add(dir / "once", bytes_of("x"));
     CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
           fmt::format("output [E-DUPLICATE-OUTPUT] '{}' is written twice in one run, with different contents "
