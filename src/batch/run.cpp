@@ -66,6 +66,176 @@ Diagnostic about_asset(const Asset& asset, Diagnostic d) {
     return d;
 }
 
+Outcome kept_outcome(const Done& done) {
+    Outcome out;
+    out.verdict = Verdict::ok;
+    out.kept = true;
+    out.figures = done.figures;
+    out.outputs = done.written;
+    for (const auto& [id, message] : done.warnings)
+        out.warnings.push_back({Severity::warning, id, message, {}, {}});
+    out.picture = done.picture;
+    return out;
+}
+
+Done named_done(const Work& work) {
+    Done done;
+    done.asset = work.asset.name;
+    done.of_table = work.asset.of_table;
+    if (work.asset.input.empty()) return done;
+    done.source = absolute_name(work.asset.input);
+    done.mount_point = mount_point_of(done.source);
+    return done;
+}
+
+/// Adds the file's size, and its digest if it is missing.
+void complete(Stamp& stamp, const fs::path& file) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    stamp.bytes = error ? 0 : size;
+    try {
+        if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
+    } catch (const Error&) { // a missing file counts as changed
+    }
+}
+
+Stamp stamp_of_output(const fs::path& folder, const std::string& path, const std::string& sha256 = {}) {
+    Stamp stamp{path, 0, 0, sha256};
+    complete(stamp, folder / path);
+    return stamp;
+}
+
+void add_reports(Done& done, const Work& work, const report::RunRecord& record, const fs::path& folder) {
+    for (const auto& report : record.reports)
+        done.outputs.push_back(stamp_of_output(folder, from_folder(work.asset, report)));
+}
+
+/// What a successful run read and wrote. before: stamps of its inputs from before reading.
+Done done_of(const Work& work, const std::vector<Stamp>& before, const report::RunRecord& record,
+             const Outcome& out, const fs::path& folder) {
+    Done done = named_done(work);
+    done.digest = work.digest;
+    std::map<std::string, std::string> sums;
+    for (const auto& input : record.inputs) sums[absolute_name(input.path)] = input.sha256;
+    for (const auto& absent : record.absent) done.absent.push_back(absolute_name(absent));
+    const auto is_absent = [&](const std::string& name) {
+        return std::find(done.absent.begin(), done.absent.end(), name) != done.absent.end();
+    };
+    for (const auto& input : work.inputs) { // a baseline is an input, but is in no record
+        const std::string name = absolute_name(input);
+        if (input != "-" && !is_absent(name)) sums.emplace(name, "");
+    }
+    for (auto& [path, sum] : sums) {
+        Stamp stamp{path, 0, 0, sum};
+        for (const auto& known : before)
+            if (absolute_name(known.path) == path) stamp.time = known.time;
+        complete(stamp, path);
+        done.inputs.push_back(std::move(stamp));
+    }
+    for (const auto& file : record.outputs)
+        done.outputs.push_back(stamp_of_output(folder, from_folder(work.asset, file.path), file.sha256));
+    add_reports(done, work, record, folder);
+    done.figures = out.figures;
+    done.written = out.outputs;
+    for (const auto& warning : out.warnings) done.warnings.emplace_back(warning.id, warning.message);
+    done.picture = out.picture;
+    return done;
+}
+
+/// The inputs of all assets, and the outputs so far.
+class Claims {
+  public:
+    void read(const fs::path& input, const std::string& asset) {
+        sources_.emplace(io::identity(input), asset);
+    }
+    void keep(const fs::path& output, const std::string& asset, const std::string& digest) {
+        written_[io::identity(output)] = {asset, digest};
+    }
+
+    /// Registers an output. File names known only at run time (of parts) may give two assets the same
+    /// output, or make it the input of another asset. Throws an output error before anything is written.
+    void write(const Asset& asset, const io::Outputs::File& file) {
+        if (!file.stream.empty() || file.is_input) return;
+        const fs::path self = io::identity(file.resolved);
+        const std::lock_guard lock(guard_);
+        if (const auto source = sources_.find(self); source != sources_.end())
+            throw Error(
+                ErrorKind::output, "E-OVERWRITE",
+                fmt::format("'{}' would overwrite an input of {}", file.target.string(), source->second),
+                "write elsewhere with --output-dir, or use the name of the asset: ${input.stem}");
+        const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
+        if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
+        throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
+                    fmt::format("'{}' is also written for {}, with different contents", file.target.string(),
+                                first->second.first),
+                    "use the name of the asset: ${input.stem}");
+    }
+
+  private:
+    std::mutex guard_;
+    std::map<fs::path, std::string> sources_; ///< by identity: inputs, and their assets
+    /// By identity: outputs, their assets, and their digests.
+    std::map<fs::path, std::pair<std::string, std::string>> written_;
+};
+
+/// The outputs that the assets have or would have after a run, and the outputs of other pipelines.
+std::set<std::string> current_outputs(const std::vector<Work>& works, const Journal& journal,
+                                      const fs::path& output_dir) {
+    std::set<std::string> current = journal.outputs_of_others();
+    const fs::path folder = fs::absolute(output_dir).lexically_normal();
+    for (const auto& work : works) {
+        for (const auto& output : work.outputs)
+            current.insert(fs::absolute(output).lexically_normal().lexically_relative(folder).string());
+        const auto done = journal.all().find(work.asset.name);
+        if (done == journal.all().end()) continue;
+        for (const auto& output : done->second.outputs) current.insert(output.path);
+    }
+    return current;
+}
+
+std::optional<Diagnostic> warning_of_reach(const std::vector<std::string>& names) {
+    if (names.empty()) return {};
+    const std::size_t more = names.size() - 1;
+    return Diagnostic{
+        Severity::warning,
+        "W-PRUNE",
+        fmt::format("the outputs of {} were not pruned, because {} cannot be reached",
+                    more == 0 ? names.front() : fmt::format("{} and {} more", names.front(), more),
+                    more == 0 ? "it" : "they"),
+        {},
+        "mount the disk or folder that has the inputs"};
+}
+
+/// Removes outputs of removed assets, and outdated outputs of other assets. All assets must have succeeded.
+/// The warning: outputs that may still have inputs stay.
+std::optional<Diagnostic> prune(const std::vector<Work>& works, Journal& journal, const fs::path& output_dir,
+                                std::vector<std::string>& pruned) {
+    std::set<std::string> current = current_outputs(works, journal, output_dir), names;
+    bool table = false;
+    for (const auto& work : works) {
+        names.insert(work.asset.name);
+        table = table || work.asset.of_table;
+    }
+    std::vector<std::string> gone, out_of_reach;
+    for (const auto& [name, done] : journal.all()) {
+        if (names.contains(name)) continue;
+        const Presence presence = presence_of(done.source, done.mount_point);
+        if (presence == Presence::gone || (table && done.of_table)) {
+            gone.push_back(name);
+            continue;
+        }
+        if (presence == Presence::out_of_reach) out_of_reach.push_back(name);
+        for (const auto& output : done.outputs) current.insert(output.path);
+    }
+    const auto note = [&](std::vector<std::string> removed) {
+        for (auto& path : removed) pruned.push_back(std::move(path));
+    };
+    for (const auto& name : gone) note(journal.remove_all(name, current));
+    for (const auto& work : works) note(journal.remove_former(work.asset.name, current));
+    std::sort(pruned.begin(), pruned.end());
+    return warning_of_reach(out_of_reach);
+}
+
 class BatchRun {
   public:
     BatchRun(std::vector<Work> works, const Settings& settings, const Listener& listener)
@@ -73,7 +243,7 @@ class BatchRun {
           journal_(settings.output_dir, settings.pipeline) {
         summary_.pipeline = settings.pipeline;
         for (const auto& work : works_)
-            for (const auto& input : work.inputs) sources_.emplace(io::identity(input), work.asset.name);
+            for (const auto& input : work.inputs) claims_.read(input, work.asset.name);
         for (const auto& work : works_) summary_.assets.push_back(work.asset);
         summary_.outcomes.resize(works_.size());
         started_.resize(works_.size());
@@ -91,7 +261,7 @@ class BatchRun {
             else {
                 for (const auto& output : keeping[i]->outputs) {
                     const fs::path path = settings_.output_dir / output.path;
-                    written_[io::identity(path)] = {works_[i].asset.name, output.sha256};
+                    claims_.keep(path, works_[i].asset.name, output.sha256);
                     folders.insert(path.parent_path());
                 }
                 finish(i, kept_outcome(*keeping[i]), nullptr);
@@ -102,7 +272,7 @@ class BatchRun {
             return work(job, beside);
         }).run();
         const std::lock_guard lock(guard_);
-        if (settings_.prune) prune();
+        if (settings_.prune) prune_outputs();
         warn(journal_.compact());
         close_summary();
         over_ = true;
@@ -129,18 +299,6 @@ class BatchRun {
         else
             parallel_for(works_.size(), look, 1);
         return kept;
-    }
-
-    static Outcome kept_outcome(const Done& done) {
-        Outcome out;
-        out.verdict = Verdict::ok;
-        out.kept = true;
-        out.figures = done.figures;
-        out.outputs = done.written;
-        for (const auto& [id, message] : done.warnings)
-            out.warnings.push_back({Severity::warning, id, message, {}, {}});
-        out.picture = done.picture;
-        return out;
     }
 
     /// Runs on a thread of the pool.
@@ -186,7 +344,7 @@ class BatchRun {
         run.last_picture = settings_.pictures;
         std::optional<cache::Store> store; // this asset's entries may be evicted when it is done
         if (settings_.store) run.store = &store.emplace(*settings_.store);
-        run.on_output = [&](const io::Outputs::File& file) { claim(work.asset, file); };
+        run.on_output = [&](const io::Outputs::File& file) { claims_.write(work.asset, file); };
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
         if (listener_.on_stage)
             run.on_stage = [&](const report::StageRecord& stage) {
@@ -198,7 +356,7 @@ class BatchRun {
         out.warnings = std::move(warnings);
         for (const auto& error : record.errors) out.errors.push_back(about_asset(work.asset, error));
         if (record.exit_code == 0)
-            done = done_of(work, before, record, out);
+            done = done_of(work, before, record, out, settings_.output_dir);
         else if (!record.reports.empty())
             done = reports_of_failed(work, record);
         return out;
@@ -207,8 +365,7 @@ class BatchRun {
     /// Records reports so that they can be pruned; outputs of an earlier run still exist.
     Done reports_of_failed(const Work& work, const report::RunRecord& record) {
         Done done = named_done(work);
-        for (const auto& report : record.reports)
-            done.outputs.push_back(complete({from_folder(work.asset, report), 0, 0, ""}));
+        add_reports(done, work, record, settings_.output_dir);
         const std::lock_guard lock(guard_);
         const auto earlier = journal_.all().find(work.asset.name);
         if (earlier == journal_.all().end()) return done;
@@ -217,63 +374,6 @@ class BatchRun {
             if (std::none_of(done.outputs.begin(), done.outputs.end(), is_it)) done.outputs.push_back(output);
         }
         return done;
-    }
-
-    static Done named_done(const Work& work) {
-        Done done;
-        done.asset = work.asset.name;
-        done.of_table = work.asset.of_table;
-        if (work.asset.input.empty()) return done;
-        done.source = absolute_name(work.asset.input);
-        done.mount_point = mount_point_of(done.source);
-        return done;
-    }
-
-    Done done_of(const Work& work, const std::vector<Stamp>& before, const report::RunRecord& record,
-                 const Outcome& out) const {
-        Done done = named_done(work);
-        done.digest = work.digest;
-        std::map<std::string, std::string> sums;
-        for (const auto& input : record.inputs) sums[absolute_name(input.path)] = input.sha256;
-        for (const auto& absent : record.absent) done.absent.push_back(absolute_name(absent));
-        const auto is_absent = [&](const std::string& name) {
-            return std::find(done.absent.begin(), done.absent.end(), name) != done.absent.end();
-        };
-        for (const auto& input : work.inputs) { // a baseline is an input, but is in no record
-            const std::string name = absolute_name(input);
-            if (input != "-" && !is_absent(name)) sums.emplace(name, "");
-        }
-        for (auto& [path, sum] : sums) {
-            Stamp stamp{path, 0, 0, sum};
-            for (const auto& known : before)
-                if (absolute_name(known.path) == path) stamp.time = known.time;
-            complete(stamp, path);
-            done.inputs.push_back(std::move(stamp));
-        }
-        for (const auto& file : record.outputs)
-            done.outputs.push_back(complete({from_folder(work.asset, file.path), 0, 0, file.sha256}));
-        for (const auto& report : record.reports)
-            done.outputs.push_back(complete({from_folder(work.asset, report), 0, 0, ""}));
-        done.figures = out.figures;
-        done.written = out.outputs;
-        for (const auto& warning : out.warnings) done.warnings.emplace_back(warning.id, warning.message);
-        done.picture = out.picture;
-        return done;
-    }
-
-    /// Adds the file's size, and its digest if it is missing.
-    static void complete(Stamp& stamp, const fs::path& file) {
-        std::error_code error;
-        const auto size = fs::file_size(file, error);
-        stamp.bytes = error ? 0 : size;
-        try {
-            if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
-        } catch (const Error&) { // a missing file counts as changed
-        }
-    }
-    Stamp complete(Stamp stamp) const {
-        complete(stamp, settings_.output_dir / stamp.path);
-        return stamp;
     }
 
     /// Reports a warning of the batch itself; the caller holds the guard.
@@ -298,90 +398,15 @@ class BatchRun {
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
 
-    /// Registers an output. File names known only at run time (of parts) may give two assets the same
-    /// output, or make it the input of another asset. Throws an output error before anything is written.
-    void claim(const Asset& asset, const io::Outputs::File& file) {
-        if (!file.stream.empty() || file.is_input) return;
-        const fs::path self = io::identity(file.resolved);
-        const std::lock_guard lock(guard_);
-        if (const auto source = sources_.find(self); source != sources_.end())
-            throw Error(
-                ErrorKind::output, "E-OVERWRITE",
-                fmt::format("'{}' would overwrite an input of {}", file.target.string(), source->second),
-                "write elsewhere with --output-dir, or use the name of the asset: ${input.stem}");
-        const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
-        if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
-        throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
-                    fmt::format("'{}' is also written for {}, with different contents", file.target.string(),
-                                first->second.first),
-                    "use the name of the asset: ${input.stem}");
-    }
-
-    /// The outputs that the assets have or would have after a run, and the outputs of other pipelines.
-    std::set<std::string> current_outputs() const {
-        std::set<std::string> current = journal_.outputs_of_others();
-        const fs::path folder = fs::absolute(settings_.output_dir).lexically_normal();
-        for (const auto& work : works_) {
-            for (const auto& output : work.outputs)
-                current.insert(fs::absolute(output).lexically_normal().lexically_relative(folder).string());
-            const auto done = journal_.all().find(work.asset.name);
-            if (done == journal_.all().end()) continue;
-            for (const auto& output : done->second.outputs) current.insert(output.path);
-        }
-        return current;
-    }
-
-    /// Removes outputs of removed assets, and outdated outputs of other assets.
-    void prune() {
+    void prune_outputs() {
         const bool all_made = std::all_of(summary_.outcomes.begin(), summary_.outcomes.end(),
                                           [](const Outcome& out) { return out.verdict == Verdict::ok; });
-        if (!all_made) { // the outputs of assets that did not run are unknown
-            warn(Diagnostic{Severity::warning,
-                            "W-PRUNE",
-                            "nothing was pruned, because not all assets succeeded",
-                            {},
-                            "run the batch again when all assets succeed"});
-            return;
-        }
-        std::set<std::string> current = current_outputs(), names;
-        bool table = false;
-        for (const auto& work : works_) {
-            names.insert(work.asset.name);
-            table = table || work.asset.of_table;
-        }
-        std::vector<std::string> gone, out_of_reach;
-        for (const auto& [name, done] : journal_.all()) {
-            if (names.contains(name)) continue;
-            const Presence presence = presence_of(done.source, done.mount_point);
-            if (presence == Presence::gone || (table && done.of_table)) {
-                gone.push_back(name);
-                continue;
-            }
-            if (presence == Presence::out_of_reach) out_of_reach.push_back(name);
-            for (const auto& output : done.outputs) current.insert(output.path);
-        }
-        warn_of_reach(out_of_reach);
-        const auto note = [&](std::vector<std::string> removed) {
-            for (auto& path : removed) summary_.pruned.push_back(std::move(path));
-        };
-        for (const auto& name : gone) note(journal_.remove_all(name, current));
-        for (const auto& work : works_) note(journal_.remove_former(work.asset.name, current));
-        std::sort(summary_.pruned.begin(), summary_.pruned.end());
-    }
-
-    void warn_of_reach(const std::vector<std::string>& names) {
-        if (names.empty()) return;
-        warn(Diagnostic{Severity::warning,
+        if (all_made) return warn(prune(works_, journal_, settings_.output_dir, summary_.pruned));
+        warn(Diagnostic{Severity::warning, // the outputs of assets that did not run are unknown
                         "W-PRUNE",
-                        fmt::format("the outputs of {} were not pruned, because {} cannot be reached",
-                                    list_of(names), names.size() == 1 ? "it" : "they"),
+                        "nothing was pruned, because not all assets succeeded",
                         {},
-                        "mount the disk or folder that has the inputs"});
-    }
-
-    static std::string list_of(const std::vector<std::string>& names) {
-        return names.size() == 1 ? names.front()
-                                 : fmt::format("{} and {} more", names.front(), names.size() - 1);
+                        "run the batch again when all assets succeed"});
     }
 
     void close_summary() {
@@ -404,14 +429,12 @@ class BatchRun {
     const Stopwatch watch_;
     const std::vector<Work> works_;
     std::unique_ptr<Jobserver> tokens_;
+    Claims claims_;
     std::mutex guard_; ///< protects all following members
     Journal journal_;
     Summary summary_;
     std::vector<bool> started_; ///< started jobs that are not yet finished
     bool over_ = false;
-    std::map<fs::path, std::string> sources_; ///< by identity: inputs, and their assets
-    /// By identity: outputs, their assets, and their digests.
-    std::map<fs::path, std::pair<std::string, std::string>> written_;
 };
 
 } // namespace

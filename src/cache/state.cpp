@@ -30,9 +30,9 @@ std::optional<T> read_from(io::Span bytes) {
         reader(value);
         reader.end();
         return value;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception&) { // Corrupt, or a library's error for invalid bytes
+    } catch (const Corrupt&) {
+        return {};
+    } catch (const Json::exception&) { // a value of another type than was written
         return {};
     }
 }

@@ -19,31 +19,31 @@ constexpr const char* new_examples = R"(Examples
 )";
 
 constexpr const char* starter =
-    R"(# A pipeline: stages that run in order. All of it is checked before the first stage begins.
+    R"(# A pipeline is a list of stages that run in order. All of it is checked before the first stage starts.
 #
-#   facetmill check FILE                          all errors, each with its position and a hint
-#   facetmill plan FILE -D input=scan.ply         shows everything resolved, without running it
+#   facetmill check FILE                          reports all errors, with positions and hints
+#   facetmill plan FILE -D input=scan.ply         shows all values and files, without running it
 #   facetmill run FILE -D input=scan.ply --output-dir out
 #   facetmill batch FILE --input 'scans/**/*.ply' --output-dir out
 #
-# facetmill stages lists the stages, facetmill stages simplify the options of one.
-# facetmill schema pipeline prints a schema with which editors complete and check this file.
+# facetmill stages lists all stages, and facetmill stages simplify describes one.
+# facetmill schema pipeline prints a JSON Schema, with which editors complete and check this file.
 facetmill: 1
-about: A mesh becomes a checked file for the web.
+about: Makes a checked file for the web.
 
-params:                            # values come from -D keep=10%, or from a file of them: -p phone.yaml
+params:                            # set them with -D keep=10%, or in a YAML file: -p phone.yaml
   input: {type: path, help: The mesh to read}
-  unit: {type: choice, default: auto, choices: [auto, mm, cm, m], help: "The unit; auto: as the file states"}
-  up: {type: choice, default: auto, choices: [auto, y, z], help: "The up axis; auto: as the file states"}
+  unit: {type: choice, default: auto, choices: [auto, mm, cm, m], help: "The unit. auto: the unit of the file"}
+  up: {type: choice, default: auto, choices: [auto, y, z], help: "The up axis. auto: the axis of the file"}
   keep: {type: ratio, default: 25%, help: The share of the triangles to keep}
 
 stages:
-  # relative to this file; paths after -D to the working directory
+  # Paths are relative to this file, but paths after -D are relative to the working directory.
   - load: {path: "${input}", unit: "${unit}", up: "${up}"}
-  - clean                          # merges coinciding vertices, drops degenerate and duplicate faces
+  - clean                          # merges vertices at the same position, removes degenerate and duplicate faces
   - simplify: "${keep}"
-    ensure: {deviation: 2%}        # a contract, checked right after the stage: exit code 1 if it does not hold
-  - write: "${input.stem}.glb"     # written only if the whole run succeeds
+    ensure: {deviation: 2%}        # checked right after the stage; the exit code is 1 if it fails
+  - write: "${input.stem}.glb"     # appears only if the whole run succeeds
 
 report: "${input.stem}.html"       # the steps, and whether the result is sound
 )";

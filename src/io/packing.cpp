@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <memory>
 #include <new>
 #include <zlib.h>
 #include <zstd.h>
@@ -169,21 +170,13 @@ Bytes deflated(Span bytes, bool header) {
 /// Packs a single frame with its size and a checksum. Uses a single thread, because the output would depend
 /// on the number of threads.
 Bytes zstd_packed(Span bytes) {
-    ZSTD_CCtx* z = ::ZSTD_createCCtx();
+    const std::unique_ptr<ZSTD_CCtx, decltype(&::ZSTD_freeCCtx)> z(::ZSTD_createCCtx(), &::ZSTD_freeCCtx);
     if (!z) throw out_of_memory("no memory to compress a file");
     // Level 9 gives smaller files than gzip's level 6, and is not slower.
-    ::ZSTD_CCtx_setParameter(z, ZSTD_c_compressionLevel, 9);
-    ::ZSTD_CCtx_setParameter(z, ZSTD_c_checksumFlag, 1);
-    Bytes out;
-    std::size_t size = 0;
-    try {
-        out.resize(::ZSTD_compressBound(bytes.size()));
-        size = ::ZSTD_compress2(z, out.data(), out.size(), bytes.data(), bytes.size());
-    } catch (...) {
-        ::ZSTD_freeCCtx(z);
-        throw;
-    }
-    ::ZSTD_freeCCtx(z);
+    ::ZSTD_CCtx_setParameter(z.get(), ZSTD_c_compressionLevel, 9);
+    ::ZSTD_CCtx_setParameter(z.get(), ZSTD_c_checksumFlag, 1);
+    Bytes out(::ZSTD_compressBound(bytes.size()));
+    const std::size_t size = ::ZSTD_compress2(z.get(), out.data(), out.size(), bytes.data(), bytes.size());
     if (::ZSTD_isError(size)) throw out_of_memory("no memory to compress a file");
     out.resize(size);
     return out;

@@ -161,7 +161,9 @@ bool StageCache::recall(const Step& step, SceneState& flow, RunState& run, repor
     trace_.back().way = TracedStep::Way::ran;
     try {
         return recall_known(step, flow, run, stage);
-    } catch (const std::exception&) { // a lack of memory, of which the stage may need less, or invalid bytes
+    } catch (const std::bad_alloc&) { // the stage may need less
+        return false;
+    } catch (const Error&) { // a file that the stage reports when it runs
         return false;
     }
 }

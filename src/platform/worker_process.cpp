@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
+#include <new>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -19,7 +20,7 @@ namespace {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
     try {
         serve(socket);
-    } catch (...) { // out of memory; the waiting side notices that no answer comes
+    } catch (const std::bad_alloc&) { // the waiting side notices that no answer comes
     }
     ::_exit(0);
 }

@@ -375,34 +375,32 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
     if (!buffer.empty()) patch.written.files.push_back({name, std::move(buffer)});
 }
 
-/// Gives the asset the copyright and the extras of the other documents that it lacks.
-void keep_assets(Patch& patch) {
-    Json& asset = patch.builder.json()["asset"];
-    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
-        if (static_cast<int>(d) == patch.base) continue;
-        const Json other = parse_document(patch.scene.documents[d]->json);
-        const auto from = other.find("asset");
-        if (from == other.end() || !from->is_object()) continue;
-        if (from->contains("copyright") && !asset.contains("copyright"))
-            asset["copyright"] = (*from)["copyright"];
-        if (from->contains("extras") && !asset.contains("extras")) asset["extras"] = (*from)["extras"];
-    }
+/// Gives the asset the copyright and the extras of another document that it lacks.
+void keep_asset(Json& asset, const Json& other) {
+    const auto from = other.find("asset");
+    if (from == other.end() || !from->is_object()) return;
+    for (const char* member : {"copyright", "extras"})
+        if (from->contains(member) && !asset.contains(member)) asset[member] = (*from)[member];
 }
 
-/// Warns that only the meshes and materials of a second document are written.
-void warn_of_losses(Patch& patch) {
+/// Warns that only the meshes and materials of another document are written.
+void warn_of_losses(Patch& patch, const std::string& name, const Json& other) {
+    std::vector<std::string> lost;
+    for (const char* list : {"animations", "skins", "cameras", "extensions"})
+        if (other.contains(list) && !other[list].empty()) lost.push_back(list);
+    if (!lost.empty())
+        patch.warn("W-MERGED",
+                   fmt::format("only the meshes and materials of '{}' are written, without its {}", name,
+                               fmt::join(lost, ", ")),
+                   fmt::format("load '{}' alone, and write it to a separate file to keep them", name));
+}
+
+void merge_other_documents(Patch& patch) {
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
         if (static_cast<int>(d) == patch.base) continue;
         const Json other = parse_document(patch.scene.documents[d]->json);
-        std::vector<std::string> lost;
-        for (const char* list : {"animations", "skins", "cameras", "extensions"})
-            if (other.contains(list) && !other[list].empty()) lost.push_back(list);
-        if (!lost.empty())
-            patch.warn("W-MERGED",
-                       fmt::format("only the meshes and materials of '{}' are written, without its {}",
-                                   patch.scene.documents[d]->name, fmt::join(lost, ", ")),
-                       fmt::format("load '{}' alone, and write it to a separate file to keep them",
-                                   patch.scene.documents[d]->name));
+        keep_asset(patch.builder.json()["asset"], other);
+        warn_of_losses(patch, patch.scene.documents[d]->name, other);
     }
 }
 
@@ -456,8 +454,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
-    keep_assets(patch);
-    warn_of_losses(patch);
+    merge_other_documents(patch);
     warn_of_dropped(written, scene, "glTF");
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
     const Textures textures = settings.textures != Textures::automatic ? settings.textures

@@ -69,379 +69,377 @@ std::size_t draw_calls_of(const Scene& scene) {
     return calls;
 }
 
-/// The scene during the optimization of its documents.
-class Optimizing {
-  public:
-    Optimizing(Scene& scene, const OptimizeOptions& o, Context& context, OptimizeReport& report)
-        : scene_(scene), o_(o), context_(context), report_(report), requests_(scene.documents.size()) {
-        for (const auto& document : scene.documents) tidies_.emplace_back(*document);
-    }
-
-    void run() {
-        report_.draw_calls_before = draw_calls_of(scene_);
-        report_.parts_before = scene_.parts.size();
-        bound_ = io::bound_parts(scene_, tidies_);
-        if (o_.dedup) merge_materials();
-        if (o_.dedup) merge_meshes();
-        if (o_.drop_attributes || o_.drop_own) drop_attributes();
-        if (o_.dedup) merge_vertices();
-        if (o_.palette) paint();
-        if (o_.flatten) flatten();
-        if (o_.instance) instance();
-        if (o_.join) join_parts();
-        if (o_.dedup)
-            for (auto& tidy : tidies_) report_.equal_accessors += tidy.merge_equal_accessors(o_.keep_names);
-        if (o_.prune) drop_tracks();
-        erase();
-        report_.draw_calls_after = draw_calls_of(scene_);
-        report_.parts_after = scene_.parts.size();
-    }
-
-  private:
-    static std::size_t number(int i) { return static_cast<std::size_t>(i); }
-
-    void merge_materials() {
-        std::vector<std::vector<std::size_t>> stands_for;
-        for (auto& tidy : tidies_) stands_for.push_back(tidy.merge_equal(o_.keep_names));
-        std::vector<Index> instead(scene_.materials.size());
-        std::map<MaterialKey, Index> known;
-        for (Index m = 0; m < instead.size(); ++m) {
-            const Material& material = scene_.materials[m];
-            const bool unknown = material.document >= 0 && material.index < 0;
-            instead[m] = unknown ? m : known.try_emplace(key_of(material, stands_for), m).first->second;
-            report_.equal_materials += instead[m] != m;
-        }
-        for (Part& part : scene_.parts)
-            for (Primitive& p : part.mesh.primitives)
-                if (p.material < instead.size()) p.material = instead[p.material];
-    }
-
-    /// The key of equal materials: document, representative material (without a document: the name), sides
-    /// and colour.
-    using MaterialKey = std::tuple<int, std::size_t, std::string, bool, std::array<std::uint64_t, 4>>;
-
-    MaterialKey key_of(const Material& m, const std::vector<std::vector<std::size_t>>& stands_for) const {
-        std::array<std::uint64_t, 4> colour;
-        std::transform(std::begin(m.base_colour), std::end(m.base_colour), colour.begin(),
-                       [](double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }); // -0 equals 0
-        if (m.document < 0) return {m.document, 0, o_.keep_names ? m.name : "", m.double_sided, colour};
-        return {m.document, stands_for[number(m.document)][number(m.index)], "", m.double_sided, colour};
-    }
-
-    /// Nodes with equal meshes reference the first of these. A mesh with a bound part stays separate.
-    void merge_meshes() {
-        const auto first = DistinctParts(scene_).first;
-        using Source = std::pair<int, int>;
-        const auto source = [&](std::size_t i) {
-            return Source{scene_.parts[i].document, scene_.parts[i].source_mesh};
-        };
-        std::map<Source, std::set<std::size_t>> variants; // the different meshes that a source mesh became
-        std::set<Source> bound;
-        for (std::size_t i = 0; i < first.size(); ++i) {
-            variants[source(i)].insert(first[i]);
-            if (bound_[i]) bound.insert(source(i));
-        }
-        for (std::size_t i = 0; i < first.size(); ++i) {
-            const Source own = source(i), other = source(first[i]);
-            const Part &part = scene_.parts[i], &example = scene_.parts[first[i]];
-            const bool fits = own != other && own.first >= 0 && own.first == other.first && own.second >= 0 &&
-                              other.second >= 0 && variants[own].size() == 1 && variants[other].size() == 1 &&
-                              !bound.contains(own) && !bound.contains(other) &&
-                              part.changed == example.changed && part.node >= 0 && example.node >= 0;
-            if (!fits || (o_.keep_names && part.name != example.name)) continue;
-            report_.equal_meshes +=
-                requests_[number(own.first)].equal_meshes.emplace(own.second, other.second).second;
-        }
-        for (Part& part : scene_.parts) {
-            if (part.document < 0 || part.source_mesh < 0) continue;
-            const auto& equal = requests_[number(part.document)].equal_meshes;
-            const auto found = equal.find(number(part.source_mesh));
-            if (found != equal.end()) part.source_mesh = static_cast<int>(found->second);
-        }
-    }
-
-    /// Merges vertices of meshes that may change: all parts with the mesh are selected, and no data refers
-    /// to vertex numbers.
-    void merge_vertices() {
-        for (const std::size_t i : changeable()) {
-            Part& part = scene_.parts[i];
-            const auto numbers = [](const Primitive& p) { return !p.json.empty(); };
-            if (std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(), numbers)) continue;
-            const std::size_t before = part.mesh.wedge_count();
-            merge_and_drop_wedges(part.mesh);
-            const std::size_t merged = before - part.mesh.wedge_count();
-            part.changed |= merged > 0;
-            report_.equal_vertices += merged;
-        }
-    }
-
-    void drop_attributes() {
-        const auto needs = [&](Index m) -> std::optional<io::MaterialNeeds> {
-            if (m >= scene_.materials.size()) return io::MaterialNeeds{};
-            const Material& material = scene_.materials[m];
-            if (material.document < 0 || material.index < 0) return io::MaterialNeeds{};
-            const auto& tidy = tidies_[number(material.document)];
-            if (!tidy.numbers_are_known()) return {};
-            return tidy.needs_of(number(material.index));
-        };
-        std::set<std::string> names;
-        for (Part& part : scene_.parts) {
-            if (!context_.selects(part, scene_)) continue;
-            const auto dropped = drop_unused_attributes(part.mesh, needs,
-                                                        {.standard = o_.drop_attributes, .own = o_.drop_own});
-            for (const std::string& name : dropped) {
-                names.insert(name);
-                context_.attribute_changes(part, {{name, Domain::wedge, AttributeChange::Kind::dropped,
-                                                   "no drawn material needs it"}});
-            }
-            part.changed |= !dropped.empty();
-        }
-        report_.dropped_attributes.assign(names.begin(), names.end());
-    }
-
-    std::vector<std::size_t> selected() const {
-        std::vector<std::size_t> all;
-        for (std::size_t i = 0; i < scene_.parts.size(); ++i)
-            if (context_.selects(scene_.parts[i], scene_)) all.push_back(i);
-        return all;
-    }
-
-    /// Selected parts whose mesh is used by selected parts only.
-    std::vector<std::size_t> changeable() const {
-        std::set<std::pair<int, int>> fixed;
-        for (const Part& part : scene_.parts)
-            if (!context_.selects(part, scene_) && part.source_mesh >= 0)
-                fixed.emplace(part.document, part.source_mesh);
-        std::vector<std::size_t> all = selected();
-        std::erase_if(all, [&](std::size_t i) {
-            return fixed.contains({scene_.parts[i].document, scene_.parts[i].source_mesh});
-        });
-        return all;
-    }
-
-    void paint() {
-        const PaletteCounts made =
-            make_palettes(scene_, tidies_, selected(), static_cast<std::size_t>(o_.palette_min));
-        report_.palettes = made.palettes;
-        report_.palette_materials = made.materials;
-        if (made.too_many_looks > 0)
-            context_.warn("W-PALETTE",
-                          fmt::format("optimize: no palette was made of {} materials: it has at most {}",
-                                      made.too_many_looks, most_looks),
-                          "use only: [...] to optimize fewer parts at a time");
-    }
-
-    void flatten() {
-        std::vector<std::set<std::size_t>> nodes(tidies_.size());
-        for (const std::size_t i : selected()) {
-            const Part& part = scene_.parts[i];
-            if (bound_[i] || part.document < 0 || part.node < 0 ||
-                !tidies_[number(part.document)].numbers_are_known())
-                continue;
-            nodes[number(part.document)].insert(number(part.node));
-        }
-        for (std::size_t d = 0; d < nodes.size(); ++d)
-            report_.flattened_parts += tidies_[d].flatten(nodes[d], requests_[d].emptied);
-    }
-
-    /// Parts by mesh, each alone at its node and not mirrored.
-    std::map<std::pair<int, int>, std::vector<std::size_t>> parts_by_mesh() const {
-        std::map<std::pair<int, int>, std::size_t> of_node;
-        for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
-        const auto first = DistinctParts(scene_).first;
-        std::map<std::pair<int, int>, std::vector<std::size_t>> all;
-        for (const std::size_t i : selected()) {
-            const Part& part = scene_.parts[i];
-            if (bound_[i] || part.document < 0 || part.node < 0 || part.source_mesh < 0 ||
-                part.mesh.face_count() == 0 || !(part.transform.determinant() > 0) ||
-                of_node[{part.document, part.node}] > 1 ||
-                !tidies_[number(part.document)].numbers_are_known())
-                continue;
-            auto& group = all[{part.document, part.source_mesh}];
-            const Part* example = group.empty() ? nullptr : &scene_.parts[group.front()];
-            if (!example || (first[i] == first[group.front()] && part.changed == example->changed))
-                group.push_back(i);
-        }
-        return all;
-    }
-
-    void instance() {
-        std::set<std::size_t> gone;
-        for (const auto& [mesh, group] : parts_by_mesh()) {
-            if (group.size() < static_cast<std::size_t>(o_.instance_min)) continue;
-            std::vector<std::pair<std::size_t, Transform>> places;
-            for (const std::size_t i : group)
-                places.emplace_back(number(scene_.parts[i].node), scene_.parts[i].transform);
-            const auto made = tidies_[number(mesh.first)].instance(places);
-            if (!made) continue;
-            for (const std::size_t i : group) {
-                requests_[number(mesh.first)].emptied.insert(number(scene_.parts[i].node));
-                if (i != group.front()) gone.insert(i);
-            }
-            Part& one = scene_.parts[group.front()];
-            one.node = static_cast<int>(made->first);
-            one.transform = made->second;
-            ++report_.instanced_meshes;
-            report_.instances += group.size();
-        }
-        erase_parts(gone);
-        bound_ = io::bound_parts(scene_, tidies_);
-    }
-
-    void erase_parts(const std::set<std::size_t>& gone) {
-        std::size_t i = 0;
-        std::erase_if(scene_.parts, [&](const Part&) { return gone.contains(i++); });
-    }
-
-    /// Parts that could be merged because nothing else requires them to be separate.
-    std::vector<std::size_t> candidates() const {
-        std::map<std::pair<int, int>, std::size_t> of_mesh, of_node;
-        for (const Part& part : scene_.parts) {
-            ++of_mesh[{part.document, part.source_mesh}];
-            ++of_node[{part.document, part.node}];
-        }
-        std::vector<std::size_t> all;
-        for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
-            const Part& part = scene_.parts[i];
-            const bool shared = (part.source_mesh >= 0 && of_mesh[{part.document, part.source_mesh}] > 1 &&
-                                 !o_.join_shared) ||
-                                (part.node >= 0 && of_node[{part.document, part.node}] > 1);
-            if (!bound_[i] && !shared && part.mesh.face_count() > 0 && inverse(part.transform) &&
-                context_.selects(part, scene_))
-                all.push_back(i);
-        }
-        return all;
-    }
-
-    /// For each shared mesh, its parts, if all of them may be joined and each has its own node.
-    std::vector<std::vector<std::size_t>> shared_candidates() const {
-        std::map<std::pair<int, int>, std::size_t> of_node;
-        for (const Part& part : scene_.parts) ++of_node[{part.document, part.node}];
-        std::map<std::pair<int, int>, std::vector<std::size_t>> of_mesh;
-        for (std::size_t i = 0; i < scene_.parts.size(); ++i)
-            of_mesh[{scene_.parts[i].document, scene_.parts[i].source_mesh}].push_back(i);
-        const auto first = DistinctParts(scene_).first;
-        std::vector<std::vector<std::size_t>> all;
-        for (const auto& [mesh, parts] : of_mesh) {
-            const std::size_t one = parts.front();
-            const Part& example = scene_.parts[one];
-            const auto fits = [&](std::size_t i) {
-                const Part& part = scene_.parts[i];
-                return !bound_[i] && part.mesh.face_count() > 0 && inverse(part.transform) &&
-                       context_.selects(part, scene_) && part.node >= 0 &&
-                       of_node.at({part.document, part.node}) == 1 && first[i] == first[one] &&
-                       part.changed == example.changed;
-            };
-            if (mesh.second >= 0 && parts.size() > 1 && std::all_of(parts.begin(), parts.end(), fits))
-                all.push_back(parts);
-        }
-        return all;
-    }
-
-    void join_parts() {
-        const auto able = candidates();
-        for (const std::size_t i : changeable())
-            if (join_primitives(scene_.parts[i].mesh)) scene_.parts[i].changed = true;
-        if (o_.keep_names) return;
-        std::set<std::size_t> gone;
-        auto groups = groups_to_join(scene_, able);
-        if (!o_.join_shared) {
-            const auto together = groups_standing_together(scene_, shared_candidates());
-            groups.insert(groups.end(), together.begin(), together.end());
-        }
-        for (const JoinedParts& group : groups) {
-            report_.joined.push_back(scene_.parts[group.first].name);
-            report_.joined_parts += group.others.size();
-            join(scene_, group);
-            for (const std::size_t i : group.others) {
-                const Part& other = scene_.parts[i];
-                if (other.document >= 0 && other.node >= 0)
-                    requests_[number(other.document)].emptied.insert(number(other.node));
-                gone.insert(i);
-            }
-        }
-        erase_parts(gone);
-    }
-
-    void drop_tracks() {
-        const Box box = io::drawn_bounds(scene_);
-        constexpr double ratio = 1e-6; // of the diagonal
-        const double within = box.empty() ? 0 : ratio * length(box.extent());
-        for (auto& tidy : tidies_) tidy.drop_resting_tracks(within);
-    }
-
-    void erase() {
-        for (const Part& part : scene_.parts)
-            if (part.document >= 0 && part.source_mesh >= 0)
-                requests_[number(part.document)].meshes.insert(number(part.source_mesh));
-        if (o_.prune && !scene_.parts.empty()) drop_materials(); // a library of materials keeps them
-        for (const Material& m : scene_.materials)
-            if (m.document >= 0 && m.index >= 0)
-                requests_[number(m.document)].materials.insert(number(m.index));
-        for (std::size_t d = 0; d < tidies_.size(); ++d) {
-            requests_[d].all = o_.prune;
-            renumber(static_cast<int>(d), tidies_[d].erase_unused(requests_[d]));
-            add(tidies_[d].erased());
-            if (!tidies_[d].numbers_are_known())
-                context_.warn("W-OPTIMIZE",
-                              fmt::format("optimize: nothing was removed or joined in '{}' because it has an "
-                                          "extension that may refer to items by their numbers",
-                                          scene_.documents[d]->name));
-            scene_.documents[d] = tidies_[d].finish(scene_.documents[d]);
-        }
-    }
-
-    /// Removes unused materials of the scene, including merged duplicates.
-    void drop_materials() {
-        std::vector<Index> number_of(scene_.materials.size(), none);
-        for (const Part& part : scene_.parts)
-            for (const Primitive& p : part.mesh.primitives)
-                if (p.material < number_of.size()) number_of[p.material] = 0;
-        std::vector<Material> kept;
-        for (std::size_t m = 0; m < number_of.size(); ++m) {
-            const Material& material = scene_.materials[m];
-            const bool unknown =
-                material.document >= 0 && !tidies_[number(material.document)].numbers_are_known();
-            if (number_of[m] == none && !unknown) continue;
-            number_of[m] = static_cast<Index>(kept.size());
-            kept.push_back(material);
-        }
-        scene_.materials = std::move(kept);
-        for (Part& part : scene_.parts)
-            for (Primitive& p : part.mesh.primitives)
-                if (p.material < number_of.size()) p.material = number_of[p.material];
-    }
-
-    void renumber(int document, const io::TidyNumbers& numbers) {
-        const auto follow = [](int& i, const std::vector<int>& all) {
-            if (i >= 0 && number(i) < all.size()) i = all[number(i)];
-        };
-        for (Part& part : scene_.parts) {
-            if (part.document != document) continue;
-            follow(part.node, numbers.nodes);
-            follow(part.source_mesh, numbers.meshes);
-        }
-        for (Material& material : scene_.materials)
-            if (material.document == document) follow(material.index, numbers.materials);
-    }
-
-    void add(const io::TidyCounts& c) {
-        io::TidyCounts& all = report_.erased;
-        for (const auto member :
-             {&io::TidyCounts::nodes, &io::TidyCounts::meshes, &io::TidyCounts::materials,
-              &io::TidyCounts::textures, &io::TidyCounts::samplers, &io::TidyCounts::images,
-              &io::TidyCounts::accessors, &io::TidyCounts::tracks})
-            all.*member += c.*member;
-    }
-
-    Scene& scene_;
-    const OptimizeOptions& o_;
-    Context& context_;
-    OptimizeReport& report_;
-    std::vector<io::DocumentOptimizer> tidies_;
-    std::vector<io::TidyRequest> requests_;
-    std::vector<bool> bound_;
+/// The scene, and what is asked of its documents.
+struct Optimization {
+    Scene& scene;
+    const OptimizeOptions& o;
+    Context& context;
+    OptimizeReport& report;
+    std::vector<io::DocumentOptimizer> tidies{};
+    std::vector<io::TidyRequest> requests{};
+    std::vector<bool> bound{}; ///< [parts] see io::bound_parts
 };
+
+std::size_t number(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<std::size_t> selected(const Optimization& w) {
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < w.scene.parts.size(); ++i)
+        if (w.context.selects(w.scene.parts[i], w.scene)) all.push_back(i);
+    return all;
+}
+
+/// Selected parts whose mesh is used by selected parts only.
+std::vector<std::size_t> changeable(const Optimization& w) {
+    std::set<std::pair<int, int>> fixed;
+    for (const Part& part : w.scene.parts)
+        if (!w.context.selects(part, w.scene) && part.source_mesh >= 0)
+            fixed.emplace(part.document, part.source_mesh);
+    std::vector<std::size_t> all = selected(w);
+    std::erase_if(all, [&](std::size_t i) {
+        return fixed.contains({w.scene.parts[i].document, w.scene.parts[i].source_mesh});
+    });
+    return all;
+}
+
+/// How many parts each node has.
+std::map<std::pair<int, int>, std::size_t> parts_of_nodes(const Scene& scene) {
+    std::map<std::pair<int, int>, std::size_t> count;
+    for (const Part& part : scene.parts) ++count[{part.document, part.node}];
+    return count;
+}
+
+void erase_parts(Scene& scene, const std::set<std::size_t>& gone) {
+    std::size_t i = 0;
+    std::erase_if(scene.parts, [&](const Part&) { return gone.contains(i++); });
+}
+
+void renumber_materials(Scene& scene, const std::vector<Index>& numbers) {
+    for (Part& part : scene.parts)
+        for (Primitive& p : part.mesh.primitives)
+            if (p.material < numbers.size()) p.material = numbers[p.material];
+}
+
+/// The key of equal materials: document, representative material (without a document: the name), sides
+/// and colour.
+using MaterialKey = std::tuple<int, std::size_t, std::string, bool, std::array<std::uint64_t, 4>>;
+
+MaterialKey key_of(const Material& m, const std::vector<std::vector<std::size_t>>& stands_for,
+                   bool keep_names) {
+    std::array<std::uint64_t, 4> colour;
+    std::transform(std::begin(m.base_colour), std::end(m.base_colour), colour.begin(),
+                   [](double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }); // -0 equals 0
+    if (m.document < 0) return {m.document, 0, keep_names ? m.name : "", m.double_sided, colour};
+    return {m.document, stands_for[number(m.document)][number(m.index)], "", m.double_sided, colour};
+}
+
+void merge_materials(Optimization& w) {
+    std::vector<std::vector<std::size_t>> stands_for;
+    for (auto& tidy : w.tidies) stands_for.push_back(tidy.merge_equal(w.o.keep_names));
+    std::vector<Index> instead(w.scene.materials.size());
+    std::map<MaterialKey, Index> known;
+    for (Index m = 0; m < instead.size(); ++m) {
+        const Material& material = w.scene.materials[m];
+        const bool unknown = material.document >= 0 && material.index < 0;
+        instead[m] =
+            unknown ? m : known.try_emplace(key_of(material, stands_for, w.o.keep_names), m).first->second;
+        w.report.equal_materials += instead[m] != m;
+    }
+    renumber_materials(w.scene, instead);
+}
+
+/// Nodes with equal meshes reference the first of these. A mesh with a bound part stays separate.
+void merge_meshes(Optimization& w) {
+    const auto first = DistinctParts(w.scene).first;
+    using Source = std::pair<int, int>;
+    const auto source = [&](std::size_t i) {
+        return Source{w.scene.parts[i].document, w.scene.parts[i].source_mesh};
+    };
+    std::map<Source, std::set<std::size_t>> variants; // the different meshes that a source mesh became
+    std::set<Source> bound;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        variants[source(i)].insert(first[i]);
+        if (w.bound[i]) bound.insert(source(i));
+    }
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const Source own = source(i), other = source(first[i]);
+        const Part &part = w.scene.parts[i], &example = w.scene.parts[first[i]];
+        const bool fits = own != other && own.first >= 0 && own.first == other.first && own.second >= 0 &&
+                          other.second >= 0 && variants[own].size() == 1 && variants[other].size() == 1 &&
+                          !bound.contains(own) && !bound.contains(other) && part.changed == example.changed &&
+                          part.node >= 0 && example.node >= 0;
+        if (!fits || (w.o.keep_names && part.name != example.name)) continue;
+        w.report.equal_meshes +=
+            w.requests[number(own.first)].equal_meshes.emplace(own.second, other.second).second;
+    }
+    for (Part& part : w.scene.parts) {
+        if (part.document < 0 || part.source_mesh < 0) continue;
+        const auto& equal = w.requests[number(part.document)].equal_meshes;
+        const auto found = equal.find(number(part.source_mesh));
+        if (found != equal.end()) part.source_mesh = static_cast<int>(found->second);
+    }
+}
+
+/// Merges vertices of meshes that may change: all parts with the mesh are selected, and no data refers
+/// to vertex numbers.
+void merge_vertices(Optimization& w) {
+    for (const std::size_t i : changeable(w)) {
+        Part& part = w.scene.parts[i];
+        const auto numbers = [](const Primitive& p) { return !p.json.empty(); };
+        if (std::any_of(part.mesh.primitives.begin(), part.mesh.primitives.end(), numbers)) continue;
+        const std::size_t before = part.mesh.wedge_count();
+        merge_and_drop_wedges(part.mesh);
+        const std::size_t merged = before - part.mesh.wedge_count();
+        part.changed |= merged > 0;
+        w.report.equal_vertices += merged;
+    }
+}
+
+void drop_attributes(Optimization& w) {
+    const auto needs = [&](Index m) -> std::optional<io::MaterialNeeds> {
+        if (m >= w.scene.materials.size()) return io::MaterialNeeds{};
+        const Material& material = w.scene.materials[m];
+        if (material.document < 0 || material.index < 0) return io::MaterialNeeds{};
+        const auto& tidy = w.tidies[number(material.document)];
+        if (!tidy.numbers_are_known()) return {};
+        return tidy.needs_of(number(material.index));
+    };
+    std::set<std::string> names;
+    for (Part& part : w.scene.parts) {
+        if (!w.context.selects(part, w.scene)) continue;
+        const auto dropped =
+            drop_unused_attributes(part.mesh, needs, {.standard = w.o.drop_attributes, .own = w.o.drop_own});
+        for (const std::string& name : dropped) {
+            names.insert(name);
+            w.context.attribute_changes(
+                part, {{name, Domain::wedge, AttributeChange::Kind::dropped, "no drawn material needs it"}});
+        }
+        part.changed |= !dropped.empty();
+    }
+    w.report.dropped_attributes.assign(names.begin(), names.end());
+}
+
+void paint(Optimization& w) {
+    const PaletteCounts made =
+        make_palettes(w.scene, w.tidies, selected(w), static_cast<std::size_t>(w.o.palette_min));
+    w.report.palettes = made.palettes;
+    w.report.palette_materials = made.materials;
+    if (made.too_many_looks > 0)
+        w.context.warn("W-PALETTE",
+                       fmt::format("optimize: no palette was made of {} materials: it has at most {}",
+                                   made.too_many_looks, most_looks),
+                       "use only: [...] to optimize fewer parts at a time");
+}
+
+void flatten(Optimization& w) {
+    std::vector<std::set<std::size_t>> nodes(w.tidies.size());
+    for (const std::size_t i : selected(w)) {
+        const Part& part = w.scene.parts[i];
+        if (w.bound[i] || part.document < 0 || part.node < 0 ||
+            !w.tidies[number(part.document)].numbers_are_known())
+            continue;
+        nodes[number(part.document)].insert(number(part.node));
+    }
+    for (std::size_t d = 0; d < nodes.size(); ++d)
+        w.report.flattened_parts += w.tidies[d].flatten(nodes[d], w.requests[d].emptied);
+}
+
+/// Parts by mesh, each alone at its node and not mirrored.
+std::map<std::pair<int, int>, std::vector<std::size_t>> parts_by_mesh(const Optimization& w) {
+    auto of_node = parts_of_nodes(w.scene);
+    const auto first = DistinctParts(w.scene).first;
+    std::map<std::pair<int, int>, std::vector<std::size_t>> all;
+    for (const std::size_t i : selected(w)) {
+        const Part& part = w.scene.parts[i];
+        if (w.bound[i] || part.document < 0 || part.node < 0 || part.source_mesh < 0 ||
+            part.mesh.face_count() == 0 || !(part.transform.determinant() > 0) ||
+            of_node[{part.document, part.node}] > 1 || !w.tidies[number(part.document)].numbers_are_known())
+            continue;
+        auto& group = all[{part.document, part.source_mesh}];
+        const Part* example = group.empty() ? nullptr : &w.scene.parts[group.front()];
+        if (!example || (first[i] == first[group.front()] && part.changed == example->changed))
+            group.push_back(i);
+    }
+    return all;
+}
+
+void instance(Optimization& w) {
+    std::set<std::size_t> gone;
+    for (const auto& [mesh, group] : parts_by_mesh(w)) {
+        if (group.size() < static_cast<std::size_t>(w.o.instance_min)) continue;
+        std::vector<std::pair<std::size_t, Transform>> places;
+        for (const std::size_t i : group)
+            places.emplace_back(number(w.scene.parts[i].node), w.scene.parts[i].transform);
+        const auto made = w.tidies[number(mesh.first)].instance(places);
+        if (!made) continue;
+        for (const std::size_t i : group) {
+            w.requests[number(mesh.first)].emptied.insert(number(w.scene.parts[i].node));
+            if (i != group.front()) gone.insert(i);
+        }
+        Part& one = w.scene.parts[group.front()];
+        one.node = static_cast<int>(made->first);
+        one.transform = made->second;
+        ++w.report.instanced_meshes;
+        w.report.instances += group.size();
+    }
+    erase_parts(w.scene, gone);
+    w.bound = io::bound_parts(w.scene, w.tidies);
+}
+
+/// Parts that could be merged because nothing else requires them to be separate.
+std::vector<std::size_t> candidates(const Optimization& w) {
+    auto of_node = parts_of_nodes(w.scene);
+    std::map<std::pair<int, int>, std::size_t> of_mesh;
+    for (const Part& part : w.scene.parts) ++of_mesh[{part.document, part.source_mesh}];
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < w.scene.parts.size(); ++i) {
+        const Part& part = w.scene.parts[i];
+        const bool shared =
+            (part.source_mesh >= 0 && of_mesh[{part.document, part.source_mesh}] > 1 && !w.o.join_shared) ||
+            (part.node >= 0 && of_node[{part.document, part.node}] > 1);
+        if (!w.bound[i] && !shared && part.mesh.face_count() > 0 && inverse(part.transform) &&
+            w.context.selects(part, w.scene))
+            all.push_back(i);
+    }
+    return all;
+}
+
+/// For each shared mesh, its parts, if all of them may be joined and each has its own node.
+std::vector<std::vector<std::size_t>> shared_candidates(const Optimization& w) {
+    auto of_node = parts_of_nodes(w.scene);
+    std::map<std::pair<int, int>, std::vector<std::size_t>> of_mesh;
+    for (std::size_t i = 0; i < w.scene.parts.size(); ++i)
+        of_mesh[{w.scene.parts[i].document, w.scene.parts[i].source_mesh}].push_back(i);
+    const auto first = DistinctParts(w.scene).first;
+    std::vector<std::vector<std::size_t>> all;
+    for (const auto& [mesh, parts] : of_mesh) {
+        const std::size_t one = parts.front();
+        const Part& example = w.scene.parts[one];
+        const auto fits = [&](std::size_t i) {
+            const Part& part = w.scene.parts[i];
+            return !w.bound[i] && part.mesh.face_count() > 0 && inverse(part.transform) &&
+                   w.context.selects(part, w.scene) && part.node >= 0 &&
+                   of_node.at({part.document, part.node}) == 1 && first[i] == first[one] &&
+                   part.changed == example.changed;
+        };
+        if (mesh.second >= 0 && parts.size() > 1 && std::all_of(parts.begin(), parts.end(), fits))
+            all.push_back(parts);
+    }
+    return all;
+}
+
+void join_parts(Optimization& w) {
+    const auto able = candidates(w);
+    for (const std::size_t i : changeable(w))
+        if (join_primitives(w.scene.parts[i].mesh)) w.scene.parts[i].changed = true;
+    if (w.o.keep_names) return;
+    std::set<std::size_t> gone;
+    auto groups = groups_to_join(w.scene, able);
+    if (!w.o.join_shared) {
+        const auto together = groups_standing_together(w.scene, shared_candidates(w));
+        groups.insert(groups.end(), together.begin(), together.end());
+    }
+    for (const JoinedParts& group : groups) {
+        w.report.joined.push_back(w.scene.parts[group.first].name);
+        w.report.joined_parts += group.others.size();
+        join(w.scene, group);
+        for (const std::size_t i : group.others) {
+            const Part& other = w.scene.parts[i];
+            if (other.document >= 0 && other.node >= 0)
+                w.requests[number(other.document)].emptied.insert(number(other.node));
+            gone.insert(i);
+        }
+    }
+    erase_parts(w.scene, gone);
+}
+
+void drop_tracks(Optimization& w) {
+    const Box box = io::drawn_bounds(w.scene);
+    constexpr double ratio = 1e-6; // of the diagonal
+    const double within = box.empty() ? 0 : ratio * length(box.extent());
+    for (auto& tidy : w.tidies) tidy.drop_resting_tracks(within);
+}
+
+/// Removes unused materials of the scene, including merged duplicates.
+void drop_materials(Optimization& w) {
+    std::vector<Index> number_of(w.scene.materials.size(), none);
+    for (const Part& part : w.scene.parts)
+        for (const Primitive& p : part.mesh.primitives)
+            if (p.material < number_of.size()) number_of[p.material] = 0;
+    std::vector<Material> kept;
+    for (std::size_t m = 0; m < number_of.size(); ++m) {
+        const Material& material = w.scene.materials[m];
+        const bool unknown =
+            material.document >= 0 && !w.tidies[number(material.document)].numbers_are_known();
+        if (number_of[m] == none && !unknown) continue;
+        number_of[m] = static_cast<Index>(kept.size());
+        kept.push_back(material);
+    }
+    w.scene.materials = std::move(kept);
+    renumber_materials(w.scene, number_of);
+}
+
+void renumber(Scene& scene, int document, const io::TidyNumbers& numbers) {
+    const auto follow = [](int& i, const std::vector<int>& all) {
+        if (i >= 0 && number(i) < all.size()) i = all[number(i)];
+    };
+    for (Part& part : scene.parts) {
+        if (part.document != document) continue;
+        follow(part.node, numbers.nodes);
+        follow(part.source_mesh, numbers.meshes);
+    }
+    for (Material& material : scene.materials)
+        if (material.document == document) follow(material.index, numbers.materials);
+}
+
+void add(io::TidyCounts& all, const io::TidyCounts& c) {
+    for (const auto member : {&io::TidyCounts::nodes, &io::TidyCounts::meshes, &io::TidyCounts::materials,
+                              &io::TidyCounts::textures, &io::TidyCounts::samplers, &io::TidyCounts::images,
+                              &io::TidyCounts::accessors, &io::TidyCounts::tracks})
+        all.*member += c.*member;
+}
+
+void erase(Optimization& w) {
+    for (const Part& part : w.scene.parts)
+        if (part.document >= 0 && part.source_mesh >= 0)
+            w.requests[number(part.document)].meshes.insert(number(part.source_mesh));
+    if (w.o.prune && !w.scene.parts.empty()) drop_materials(w); // a library of materials keeps them
+    for (const Material& m : w.scene.materials)
+        if (m.document >= 0 && m.index >= 0) w.requests[number(m.document)].materials.insert(number(m.index));
+    for (std::size_t d = 0; d < w.tidies.size(); ++d) {
+        w.requests[d].all = w.o.prune;
+        renumber(w.scene, static_cast<int>(d), w.tidies[d].erase_unused(w.requests[d]));
+        add(w.report.erased, w.tidies[d].erased());
+        if (!w.tidies[d].numbers_are_known())
+            w.context.warn("W-OPTIMIZE",
+                           fmt::format("optimize: nothing was removed or joined in '{}' because it has an "
+                                       "extension that may refer to items by their numbers",
+                                       w.scene.documents[d]->name));
+        w.scene.documents[d] = w.tidies[d].finish(w.scene.documents[d]);
+    }
+}
+
+void optimize(Optimization w) {
+    for (const auto& document : w.scene.documents) w.tidies.emplace_back(*document);
+    w.requests.resize(w.tidies.size());
+    w.bound = io::bound_parts(w.scene, w.tidies);
+    w.report.draw_calls_before = draw_calls_of(w.scene);
+    w.report.parts_before = w.scene.parts.size();
+    if (w.o.dedup) merge_materials(w);
+    if (w.o.dedup) merge_meshes(w);
+    if (w.o.drop_attributes || w.o.drop_own) drop_attributes(w);
+    if (w.o.dedup) merge_vertices(w);
+    if (w.o.palette) paint(w);
+    if (w.o.flatten) flatten(w);
+    if (w.o.instance) instance(w);
+    if (w.o.join) join_parts(w);
+    if (w.o.dedup)
+        for (auto& tidy : w.tidies) w.report.equal_accessors += tidy.merge_equal_accessors(w.o.keep_names);
+    if (w.o.prune) drop_tracks(w);
+    erase(w);
+    w.report.draw_calls_after = draw_calls_of(w.scene);
+    w.report.parts_after = w.scene.parts.size();
+}
 
 /// The nonzero counts of erased items as text: "2 nodes".
 std::vector<std::string> told(const io::TidyCounts& erased) {
@@ -509,7 +507,7 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
 
 Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeReport& report) {
     try {
-        Optimizing(scene, o, context, report).run();
+        optimize({scene, o, context, report});
     } catch (const Json::exception&) {
         throw Error(ErrorKind::malformed, "E-GLTF",
                     "a member of the document has another type than glTF gives it", {}, context.where());

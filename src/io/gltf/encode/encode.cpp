@@ -334,6 +334,21 @@ bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
 
 namespace {
 
+void add_attributes_and_targets(Builder& builder, const Mesh& mesh, const Table& table,
+                                const std::vector<Column>& columns, const EncodeSettings& settings,
+                                Json& primitive) {
+    primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
+    const Json targets = add_targets(builder, mesh, columns, table.wedges);
+    if (!targets.is_null()) primitive["targets"] = targets;
+}
+
+void add_arrays(Builder& builder, const Mesh& mesh, const Table& table, const std::vector<Column>& columns,
+                const EncodeSettings& settings, Json& primitive) {
+    add_attributes_and_targets(builder, mesh, table, columns, settings, primitive);
+    drop_baseless_targets(builder, primitive);
+    primitive["indices"] = add_indices(builder, table);
+}
+
 /// A primitive with all wedges as points.
 Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
                       const EncodeSettings& settings, Written& written) {
@@ -342,9 +357,7 @@ Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Colu
     Json primitive = primitive_frame(mesh, 0, settings, builder, written);
     constexpr int points = 0;
     primitive["mode"] = points;
-    primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
-    const Json targets = add_targets(builder, mesh, columns, table.wedges);
-    if (!targets.is_null()) primitive["targets"] = targets;
+    add_attributes_and_targets(builder, mesh, table, columns, settings, primitive);
     return primitive;
 }
 
@@ -365,11 +378,7 @@ void add_lines(Builder& builder, const Mesh& mesh, const std::vector<Column>& co
         Json primitive = primitive_frame(mesh, p, settings, builder, written);
         constexpr int list = 1;
         primitive["mode"] = list;
-        primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
-        const Json targets = add_targets(builder, mesh, columns, table.wedges);
-        if (!targets.is_null()) primitive["targets"] = targets;
-        drop_baseless_targets(builder, primitive);
-        primitive["indices"] = add_indices(builder, table);
+        add_arrays(builder, mesh, table, columns, settings, primitive);
         out.primitives.push_back(std::move(primitive));
     }
 }
@@ -407,15 +416,10 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     if (settings.draco.on) tables = draco_tables(mesh, std::move(tables), out.targets > 0, settings, out);
     for (auto& table : tables) {
         Json primitive = primitive_frame(mesh, table.primitive, settings, builder, written);
-        if (settings.draco.on) {
+        if (settings.draco.on)
             encode_draco_primitive(builder, mesh, table, columns, settings, primitive);
-        } else {
-            primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
-            const Json targets = add_targets(builder, mesh, columns, table.wedges);
-            if (!targets.is_null()) primitive["targets"] = targets;
-            drop_baseless_targets(builder, primitive);
-            primitive["indices"] = add_indices(builder, table);
-        }
+        else
+            add_arrays(builder, mesh, table, columns, settings, primitive);
         out.primitives.push_back(std::move(primitive));
     }
     if (out.dropped_faces > 0)
