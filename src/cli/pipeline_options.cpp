@@ -272,13 +272,22 @@ namespace {
                     : fmt::format("did you mean the built-in pipeline '{}'?", near));
 }
 
+/// Whether a file with an unknown suffix has the contents of a mesh: a GLB named avatar.vrm.
+bool is_mesh_by_bytes(const std::string& name) {
+    std::error_code trouble;
+    if (!fs::is_regular_file(name, trouble)) return false;
+    const auto* codec = io::sure_codec(io::Input::open(name));
+    return codec && codec->read;
+}
+
 } // namespace
 
 void take_input(std::vector<std::string>& pipelines, PipelineOptions& options, const CommandLine& line) {
     const auto is_pipeline = [](const std::string& name) {
         const auto* codec = io::codec_for(name);
         const bool is_yaml = name.ends_with(".yaml") || name.ends_with(".yml");
-        return is_yaml || (!(codec && codec->read) && io::hint_for_reading(name).empty());
+        return is_yaml ||
+               (!(codec && codec->read) && io::hint_for_reading(name).empty() && !is_mesh_by_bytes(name));
     };
     const auto first = std::stable_partition(pipelines.begin(), pipelines.end(), is_pipeline);
     if (first == pipelines.end()) return;

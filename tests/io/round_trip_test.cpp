@@ -315,6 +315,30 @@ TEST_CASE("OFF holds polygons and colours", "[io]") {
           shapes::torus(8, 5).corners);
 }
 
+TEST_CASE("colours of vertices under the plain keyword OFF are read", "[io]") {
+    const auto read = [](const std::string& text) {
+        io::ReadLog log;
+        return io::read_scene(io::Input::of("a.off", test::to_bytes(text)), {}, log).parts.at(0).mesh;
+    };
+    for (const char* counts : {"4 1 0", "4 1"}) {
+        const Mesh mesh = read(fmt::format("OFF\n\n{}\n\n0 0 0 255 0 0\n1 0 0 0 255 0 # green\n"
+                                           "1 1 0 0 0 255\n\n0 1 0 255 0 0\n\n4 0 1 2 3\n",
+                                           counts));
+        REQUIRE(mesh.vertex_count() == 4);
+        CHECK(mesh.positions[2] == Vec3{1, 1, 0});
+        REQUIRE(mesh.face_count() == 1);
+        CHECK(mesh.find("COLOR_0", Domain::wedge)->data ==
+              AttributeData(std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 0, 0}));
+    }
+    // Two vertices on a line, as the format allows.
+    const Mesh two = read("OFF\n4 2 0\n0 0 0 1 0 0\n0 1 0 0 0 1\n3 0 1 2\n3 0 2 3\n");
+    CHECK(two.positions[3] == Vec3{0, 0, 1});
+    CHECK(two.attributes.empty());
+    CHECK(failure([&] { read("OFF\n3 1 0\n0 0 0 0 0 -1\n1 0 0 0 0 -1\n0 1 0 0 0 -1\n3 0 1 2\n"); }) ==
+          "malformed [E-OFF] a.off:2: each vertex has 6 numbers, and OFF promises three | "
+          "name what follows the coordinates: NOFF for normals, COFF for colours");
+}
+
 TEST_CASE("a file that does not hold what was written is found out", "[io]") {
     const Scene scene = named_scene(shapes::cube());
     Scene moved = scene, fewer = scene;

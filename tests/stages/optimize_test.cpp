@@ -143,6 +143,24 @@ TEST_CASE("meshes that stand together wherever they stand become one, which stay
     CHECK(apart.scene.parts.size() == 4);
 }
 
+TEST_CASE("levels of detail of a material stay, and follow their numbers", "[stages]") {
+    const std::string lods = R"("materials":[)" + colour("unused", 0.5) + "," +
+                             R"({"name":"near","extensions":{"MSFT_lod":{"ids":[3,2]}}},)" +
+                             colour("far", 0.2) + "," + colour("middle", 0.3) +
+                             R"(],"extensionsUsed":["MSFT_lod"])";
+    Bench b;
+    b.scene = document(R"({"mesh":0})", mesh(1), lods);
+    b.run("optimize", Value::map({}));
+    const Json json = json_again(b.scene);
+    const Json& near = json["materials"].at(0);
+    CHECK(near["name"] == "near"); // the unused material is erased
+    const auto level = [&](std::size_t i) -> const Json& {
+        return json["materials"][near["extensions"]["MSFT_lod"]["ids"][i].get<std::size_t>()]["name"];
+    };
+    CHECK(level(0) == "middle");
+    CHECK(level(1) == "far");
+}
+
 TEST_CASE("images of equal bytes become one, with their textures and materials", "[stages]") {
     const std::string uri = "data:image/png;base64," + io::base64(to_bytes(red_png()));
     const auto textured = [](int texture) {

@@ -70,6 +70,20 @@ TEST_CASE("a document without meshes is written with its tracks, and optimize dr
     }
 }
 
+TEST_CASE("a library of materials without scenes and nodes is written", "[stages]") {
+    test::Bench b;
+    io::ReadLog log;
+    b.scene = io::read_scene(io::Input::of("a.gltf", test::to_bytes(std::string(R"({
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_xmp_json_ld"],
+        "extensions": {"KHR_xmp_json_ld": {"packets": [{"dc:title": "Oak"}]}},
+        "materials": [{"name": "oak", "doubleSided": true}]})"))),
+                             {}, log);
+    const Json json = written_after(b, options({{"path", "a.glb"}}));
+    CHECK(json["materials"] == Json::parse(R"([{"name": "oak", "doubleSided": true}])"));
+    CHECK(json["extensions"]["KHR_xmp_json_ld"]["packets"][0]["dc:title"] == "Oak");
+    CHECK(!json.contains("scenes"));
+}
+
 TEST_CASE("formats of meshes refuse a document without meshes, and so does a scene that lost its parts",
           "[stages]") {
     for (const char* name : {"stl", "ply", "obj", "off", "3mf"}) {

@@ -131,7 +131,7 @@ void Trial::tidy() {
         take_out_flat(work_);
         remove_degenerate(work_);
     }
-    if (settings_.duplicates) remove_duplicates(work_);
+    if (settings_.duplicates) remove_duplicates(work_, settings_.walls);
     if (settings_.non_manifold)
         take_apart_non_manifold(work_, {.all = true, .single = settings_.single}, &edges_);
     work_.counts = before; // this is part of the union, so it is not counted

@@ -106,7 +106,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
     if (s.weld == Nearness::near) did(weld_near(work, s.tolerance));
     if (s.degenerate) did(remove_degenerate(work));
-    if (s.duplicates) did(remove_duplicates(work));
+    if (s.duplicates) did(remove_duplicates(work, s.walls));
     steps.next();
     if (s.t_junctions != Nearness::off)
         did(resolve_t_junctions(work, s.t_junctions == Nearness::near ? s.tolerance : 0));

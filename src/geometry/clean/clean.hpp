@@ -59,6 +59,7 @@ struct CleanSettings {
     Nearness t_junctions = Nearness::exact; ///< inserts vertices of other boundary edges into boundary edges
     bool degenerate = true;   ///< removes faces with an area of exactly zero, and repeated corners
     bool duplicates = true;   ///< keeps one face per set with the same vertices; no inner walls
+    bool walls = true;        ///< duplicates also removes faces whose two sides face each other
     bool non_manifold = true; ///< splits edges of more than two faces and vertices of several fans
     /// Needs single, weld and non_manifold. Moves vertices that still coincide apart by a few float32 steps,
     /// because formats that store only triangles would merge them (move_apart).

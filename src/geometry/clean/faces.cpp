@@ -176,7 +176,7 @@ bool remove_degenerate(Work& work) {
     return repeated + count > 0;
 }
 
-bool remove_duplicates(Work& work) {
+bool remove_duplicates(Work& work, bool walls) {
     const Mesh& mesh = work.mesh;
     std::vector<Doubles> all;
     for (auto& group : groups_of_duplicates(mesh)) all.push_back({std::move(group)});
@@ -199,11 +199,13 @@ bool remove_duplicates(Work& work) {
         int left[2]; // remaining faces with the opposite and with the same orientation as the first
         left[all[g].ways >= 0] = sheet || !cancels[first] ? (many[g] ? std::abs(all[g].ways) : 1) : 0;
         left[all[g].ways < 0] = sheet && beside ? 1 : 0;
+        if (!walls) // both sides are seen
+            for (int& side : left) side = std::max(side, 1);
         for (const Index f : all[g].faces) {
             gone[f] = left[same_way(mesh, first, f)]-- <= 0;
             count += gone[f];
         }
-        if (sheet && beside)
+        if (walls && sheet && beside)
             work.not_done.push_back({"duplicates",
                                      "both sides of a separate sheet next to closed components are kept, "
                                      "because a single side would be open; components removes small sheets",

@@ -56,7 +56,7 @@ bool remove_degenerate(Work& work);
 /// closed. Cancelling faces (equal numbers in both orientations) are all removed if they form a wall or fin
 /// on other faces. In a closed surface, a common vertex is enough. If they form a separate sheet, one of
 /// each stays.
-bool remove_duplicates(Work& work);
+bool remove_duplicates(Work& work, bool walls);
 /// Inserts a vertex into a boundary edge of another face if it is on that edge (near: within tolerance). The
 /// vertex must have a boundary edge along it.
 bool resolve_t_junctions(Work& work, double tolerance);

@@ -126,6 +126,7 @@ class TextReader {
                            faces = text_.integer("the number of faces");
         out_.check(vertices, faces, text_.line(), text_.left(), 6, 2);
         text_.rest_of_line(); // the number of edges, if given, is unused
+        take_unnamed_colours(vertices);
         out_.mesh.positions.reserve(static_cast<std::size_t>(vertices));
         const std::size_t all = text_.left();
         std::vector<Index> corners;
@@ -137,6 +138,31 @@ class TextReader {
     void tell(std::int64_t item, std::size_t all) const {
         if (item % 8192 == 0)
             ProgressScope::report(1 - static_cast<double>(text_.left()) / static_cast<double>(all));
+    }
+
+    /// Many programs write colours of vertices under the plain keyword OFF. They are recognised if each line
+    /// has one vertex, with as many numbers more, and a face follows.
+    void take_unnamed_colours(std::int64_t vertices) {
+        if (kind_.normals || kind_.colours || kind_.uvs) return;
+        Text ahead = text_;
+        std::int64_t size = 0;
+        bool negative = false;
+        for (std::int64_t v = 0; v < vertices; ++v) {
+            ahead.at_end();
+            std::int64_t n = 0;
+            for (auto word = ahead.word_on_line(); !word.empty(); word = ahead.word_on_line())
+                negative |= ++n > 3 && word.starts_with('-');
+            if (n <= 3 || (v > 0 && n != size)) return;
+            size = n;
+        }
+        std::int64_t corners = 0, words = 0;
+        if (!ahead.at_end() && !ahead.take(corners)) return;
+        while (!ahead.word_on_line().empty()) ++words;
+        if (size == 0 || words < corners) return;
+        kind_.colours = (size == 6 || size == 7) && !negative;
+        if (!kind_.colours)
+            text_.fail(fmt::format("each vertex has {} numbers, and OFF promises three", size),
+                       "name what follows the coordinates: NOFF for normals, COFF for colours");
     }
 
     void vertex() {

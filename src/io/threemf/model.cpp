@@ -241,9 +241,20 @@ class ModelReader {
         object_->positions.push_back({real(e, "x"), real(e, "y"), real(e, "z")});
     }
 
+    /// Slicers paint supports, seams and filaments on triangles, in attributes of their own.
+    void note_painting(const Element& e) {
+        for (const char** a = e.attributes; *a; a += 2) {
+            std::string_view name(*a);
+            const bool own = name.size() == 2 ? (name[0] == 'v' || name[0] == 'p') : name == "pid";
+            if (own) continue;
+            if (const auto bar = name.rfind('|'); bar != std::string_view::npos) name.remove_prefix(bar + 1);
+            ++model_.skipped[fmt::format("{} of triangle", name)];
+        }
+    }
     void triangle(const Element& e) {
         for (const char* corner : {"v1", "v2", "v3"}) object_->corners.push_back(natural(e, corner));
         if (object_->corners.size() >= none - 3) beyond_limit(name_, "too many triangles");
+        note_painting(e);
         Properties p;
         p.index[0] = natural_or(e, "p1", none);
         if (p.index[0] == none) {

@@ -21,6 +21,7 @@ Duplicate faces of opposite orientation are removed if they form an inner wall, 
 faces.
 If they form a separate sheet, one face of each pair is kept.
 If they belong to a closed surface, both are kept and the surface stays closed.
+With walls: false, one face of each orientation is kept.
 
 At an edge with more than two faces, the faces that enclose the same inside stay connected.
 If other faces connect both ends of the edge, a point is added in its middle.

@@ -88,6 +88,9 @@ void declare_clean(Declare<CleanOptions>& d) {
          "duplicates", &CleanOptions::duplicates,
          "Keeps one of several faces with the same vertices. Removes inner walls made of two opposite faces.")
         .also_called("remove_duplicates remove_doubles dedup");
+    d.option("walls", &CleanOptions::walls,
+             "Removes one or both of two opposite faces with the same vertices, as an inner wall of a solid. "
+             "false keeps both sides, which are seen on leaves, cloth and panels.");
     d.choice<Nearness>("t_junctions", &CleanOptions::t_junctions,
                        nearness("if a vertex is exactly on a boundary edge",
                                 "also if a vertex is within `tolerance` of a boundary edge"),
@@ -144,6 +147,7 @@ CleanSettings clean_steps_of(const CleanOptions& o) {
     s.t_junctions = o.t_junctions;
     s.degenerate = o.degenerate;
     s.duplicates = o.duplicates;
+    s.walls = o.walls;
     s.non_manifold = o.non_manifold;
     s.isolated = o.isolated;
     s.open_components = o.open_components;

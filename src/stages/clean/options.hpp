@@ -21,8 +21,8 @@ struct CleanComponentOptions {
 
 struct CleanOptions {
     Nearness weld = Nearness::exact, stitch = Nearness::off, t_junctions = Nearness::exact;
-    bool degenerate = true, duplicates = true, non_manifold = true, isolated = true, open_components = false,
-         inner_components = false;
+    bool degenerate = true, duplicates = true, walls = true, non_manifold = true, isolated = true,
+         open_components = false, inner_components = false;
     Untangle self_intersections = Untangle::off;
     std::optional<Length> tolerance;
     bool single = false, apart = true, unit_vectors = false;

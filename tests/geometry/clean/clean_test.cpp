@@ -150,6 +150,21 @@ TEST_CASE("clean keeps one side of a doubled sheet", "[geometry]") {
     const auto r = cleaned(sheet);
     CHECK(r.counts.duplicate_faces == 12);
     CHECK(r.mesh.corners == corners);
+    CleanSettings both;
+    both.walls = both.non_manifold = false;
+    CHECK(cleaned(sheet, both).mesh.corners == sheet.corners);
+}
+
+TEST_CASE("clean keeps both sides of a fin where they are seen, once each", "[geometry]") {
+    // A triangle seen from both sides, which is attached to another, and the front of it once more.
+    const Mesh fin =
+        triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {0, 1, 2, 0, 2, 1, 1, 0, 3, 1, 2, 0});
+    CHECK(cleaned(fin).mesh.face_count() == 2); // the back is a duplicate of the front
+    CleanSettings s;
+    s.walls = s.non_manifold = false;
+    const auto r = cleaned(fin, s);
+    CHECK(r.counts.duplicate_faces == 1);
+    CHECK(r.mesh.corners == std::vector<Index>{0, 1, 2, 0, 2, 1, 1, 0, 3});
 }
 
 TEST_CASE("clean splits a vertex of two fans", "[geometry]") {

@@ -282,6 +282,19 @@ TEST_CASE("objects of a 3MF that are no models are left out and named", "[io]") 
           "the file has no object of type 'model': others are read as such (1 'surface')");
 }
 
+TEST_CASE("what slicers paint on triangles is named", "[io]") {
+    const Loaded painted = load(archive(model(
+        R"(<object id="1"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/>
+<vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2" s:custom_seam="4"/>
+<triangle v1="0" v2="2" v3="1" paint_color="8"/></triangles></mesh></object>)",
+        R"(<item objectid="1"/>)", R"(xmlns:s="http://schemas.slic3r.org/3mf/2017/06")")));
+    CHECK(painted.scene.parts.size() == 1);
+    REQUIRE(painted.log.warnings.size() == 1);
+    CHECK(painted.log.warnings[0].id == "W-SKIPPED");
+    CHECK(painted.log.warnings[0].message == "elements that cannot be kept are skipped: custom_seam of "
+                                             "triangle (1), paint_color of triangle (1)");
+}
+
 TEST_CASE("3MF keeps its metadata and part numbers, and glTF gets them", "[io]") {
     std::string text =
         model(R"(<object id="1" partnumber="A-17">)" + one_triangle + "</object>", R"(<item objectid="1"/>)");

@@ -256,6 +256,8 @@ BaseDocument base_document(const Scene& scene) {
         for (const char* content : {"scenes", "nodes", "meshes"})
             if (json.contains(content)) return {static_cast<int>(d), std::move(json)};
     }
+    // Without parts, a library of images or materials is all there is to write.
+    if (scene.parts.empty() && !scene.documents.empty()) return {0, parse_document(scene.documents[0]->json)};
     return {};
 }
 

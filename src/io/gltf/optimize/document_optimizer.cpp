@@ -48,7 +48,15 @@ void visit_image_references(Json& document, const Visit& visit) {
                 if (index_at(value, "source")) visit(value["source"]);
 }
 
+/// Materials are referenced by primitives, and by materials whose levels of detail they are (MSFT_lod).
 void visit_material_references(Json& document, const Visit& visit) {
+    const Json::json_pointer levels("/extensions/MSFT_lod/ids");
+    for (std::size_t m = 0; m < count_of(document, "materials"); ++m) {
+        Json& material = document["materials"][m];
+        if (material.is_object() && material.contains(levels) && material[levels].is_array())
+            for (Json& level : material[levels])
+                if (level.is_number_unsigned()) visit(level);
+    }
     if (!document.contains("meshes")) return;
     for (Json& mesh : document["meshes"])
         for (Json& primitive : mesh["primitives"])

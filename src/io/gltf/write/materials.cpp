@@ -90,6 +90,19 @@ void copy_textures(MaterialCopies& copies, int document, Json& json) {
     }
 }
 
+/// Drops the levels of detail of a material, whose numbers are of the other document. Warns.
+void copy_levels(MaterialCopies& copies, int document, Json& json) {
+    const auto extensions = json.find("extensions");
+    if (extensions == json.end() || !extensions->is_object() || extensions->erase("MSFT_lod") == 0) return;
+    if (extensions->empty()) json.erase("extensions");
+    const std::string& name = copies.patch.scene.documents[static_cast<std::size_t>(document)]->name;
+    copies.patch.warn(
+        "W-MERGED",
+        fmt::format("the levels of detail of material '{}' of '{}' are not written",
+                    json.value("name", std::string()), name),
+        fmt::format("load '{}' by itself, and write it to a file of its own to keep them", name));
+}
+
 Json new_material(const Material& material) {
     Json json = Json::object();
     if (!material.name.empty()) json["name"] = material.name;
@@ -123,6 +136,7 @@ int patch_material(MaterialCopies& copies, Index index) {
     if (material.document >= 0 && material.index >= 0) {
         const Json& other = other_document(copies, material.document);
         json = item(other, "materials", static_cast<std::size_t>(material.index)).json();
+        copy_levels(copies, material.document, json);
         copy_textures(copies, material.document, json);
         patch_sides(material, json);
     } else {
