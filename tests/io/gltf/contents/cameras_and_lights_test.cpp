@@ -103,4 +103,15 @@ TEST_CASE("animations play around the place to which a scene has moved", "[io]")
     check_near(at["seat"], {0, 4, 7});
 }
 
+TEST_CASE("the centre of CESIUM_RTC moves the whole file", "[io]") {
+    const Scene scene = cube_with([](Json& json) {
+        json["extensions"]["CESIUM_RTC"]["center"] = {100, 200, 300}; // with z up
+        json["extensionsUsed"] = {"CESIUM_RTC"};
+        json["extensionsRequired"] = {"CESIUM_RTC"};
+    });
+    CHECK(scene.bounds().min == Vec3{100, 300, -200});
+    CHECK(test::json_of(test::written(scene, "glb").files.at(0).bytes).find("CESIUM_RTC") ==
+          std::string::npos);
+}
+
 } // namespace moved_nodes_test
