@@ -25,10 +25,17 @@ bool is_dxf(std::string_view text) {
            head.find("SECTION") != std::string_view::npos;
 }
 
+Diagnostic warning_of_degrees(const char* what, Mark at) {
+    return {Severity::warning, "W-FOOTPRINT",
+            fmt::format("{}, but its numbers are taken as coordinates of the scene", what), std::move(at),
+            "convert it to the coordinate system of the mesh, for example with ogr2ogr -t_srs"};
+}
+
 // --- DXF
 
 /// "4 LINE and 2 ARC entities".
-std::string entities_text(const std::map<std::string, std::size_t>& counts) {
+std::string counts_text(const std::map<std::string, std::size_t>& counts, std::string_view one,
+                        std::string_view many) {
     std::string text;
     std::size_t all = 0, left = counts.size();
     for (const auto& [type, count] : counts) {
@@ -36,7 +43,10 @@ std::string entities_text(const std::map<std::string, std::size_t>& counts) {
         all += count;
         --left;
     }
-    return text + (all == 1 ? " entity" : " entities");
+    return fmt::format("{} {}", text, noun_for(all, one, many));
+}
+std::string entities_text(const std::map<std::string, std::size_t>& counts) {
+    return counts_text(counts, "entity", "entities");
 }
 
 /// Outlines of a DXF, with warnings about entities that are left out.
@@ -126,7 +136,7 @@ class GeoJson {
   public:
     explicit GeoJson(const std::string& name) : name_(name) {}
 
-    FootprintRings read(std::string_view text) {
+    FootprintFile read(std::string_view text) {
         Json json;
         try {
             json = parse_json(text);
@@ -136,10 +146,32 @@ class GeoJson {
             malformed(name_, 0, "E-GEOJSON", "this is not JSON: a number is out of range");
         }
         geometry(json, 0);
-        return std::move(rings_);
+        FootprintFile file;
+        file.rings = std::move(rings_);
+        if (!unused_.empty()) warn_of_unused(file);
+        if (has_degrees(json))
+            file.warnings.push_back(warning_of_degrees(
+                "its coordinate system (crs) is longitude and latitude", file_mark(name_)));
+        return file;
     }
 
   private:
+    void warn_of_unused(FootprintFile& file) const {
+        std::size_t all = 0;
+        for (const auto& [type, count] : unused_) all += count;
+        file.warnings.push_back(
+            {Severity::warning, "W-FOOTPRINT",
+             fmt::format("{} {} left out: only polygons have an inside",
+                         counts_text(unused_, "geometry", "geometries"), all == 1 ? "is" : "are"),
+             file_mark(name_), "close the lines to polygons if they belong to the outline"});
+    }
+    /// The member of files before RFC 7946 that names the coordinate system.
+    static bool has_degrees(const Json& json) {
+        const Json::json_pointer name("/crs/properties/name");
+        if (!json.is_object() || !json.contains(name) || !json[name].is_string()) return false;
+        const auto text = json[name].get<std::string>();
+        return text.ends_with("CRS84") || text.ends_with(":4326") || text.ends_with("/4326");
+    }
     void geometry(const Json& j, int depth) {
         if (depth > 32) fail("collections are nested too deeply");
         if (!j.is_object() || !j.contains("type") || !j["type"].is_string()) fail("an object has no type");
@@ -154,6 +186,8 @@ class GeoJson {
             polygon(member(j, "coordinates"));
         else if (type == "MultiPolygon")
             for (const Json& p : member(j, "coordinates")) polygon(p);
+        else
+            ++unused_[type];
     }
     const Json& member(const Json& j, const char* key) const {
         if (!j.contains(key) || !j[key].is_array()) fail(fmt::format("'{}' must be a list", key));
@@ -177,6 +211,7 @@ class GeoJson {
 
     const std::string& name_;
     FootprintRings rings_;
+    std::map<std::string, std::size_t> unused_; ///< geometries without an inside, by type
 };
 
 // --- WKT (OGC 06-103r4)
@@ -317,7 +352,7 @@ FootprintFile read_footprint(const Input& input) {
     const std::string_view text = without_space(as_text(input.bytes()));
     FootprintFile file;
     if (text.starts_with("{"))
-        file.rings = GeoJson(input.name()).read(text);
+        file = GeoJson(input.name()).read(text);
     else if (is_wkt(text))
         file.rings = parse_wkt(text, input.name());
     else if (text.starts_with("AutoCAD Binary DXF"))

@@ -13,8 +13,12 @@ const RegisterMessages footprint_messages{
      {ErrorKind::malformed, ErrorKind::usage}},
     {"W-FOOTPRINT",
      "Parts of a footprint's file are left out: lines of a DXF that enclose nothing, hatches, hidden "
-     "entities, or a ring that repeats another one.",
-     "Join the ends of lines that belong to the outline in the CAD program. Ignore this warning otherwise."},
+     "entities, lines and points of a GeoJSON, or a ring that repeats another one. Or a GeoJSON states that "
+     "it "
+     "is in degrees of longitude and latitude.",
+     "Join the ends of lines that belong to the outline in the CAD program. Convert degrees to the "
+     "coordinate "
+     "system of the mesh. Ignore this warning otherwise."},
 };
 
 } // namespace facetmill

@@ -12,6 +12,7 @@
 #include "io/gltf/document/check.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/gltf/document/nodes.hpp"
+#include "io/gltf/document/roots.hpp"
 #include "io/gltf/document/shorten.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
@@ -31,6 +32,8 @@ namespace facetmill::io::gltf {
 
 namespace {
 
+constexpr const char* centre_extension = "CESIUM_RTC";
+
 /// True if a geometry reader understands the extension or may ignore it: materials, textures and lights do
 /// not move faces.
 bool understood(const std::string& extension) {
@@ -43,6 +46,7 @@ bool understood(const std::string& extension) {
         "EXT_structural_metadata",    "KHR_techniques_webgl",   "KHR_physics_rigid_bodies",
         "KHR_implicit_shapes",        "KHR_node_hoverability",  "KHR_node_selectability"};
     const auto starts = [&](const char* prefix) { return extension.rfind(prefix, 0) == 0; };
+    if (extension == centre_extension) return true;
     return known.count(extension) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_") || starts("EXT_materials_") || starts("ADOBE_materials_");
 }
@@ -242,6 +246,28 @@ Chunks chunks_of(const Input& input) {
     return chunks;
 }
 
+/// Replaces CESIUM_RTC by nodes: its centre is a translation of the whole file, with z up.
+bool place_at_centre(Json& document) {
+    if (!document.contains("extensions") || !document["extensions"].contains(centre_extension)) return false;
+    const JsonCursor centre = JsonCursor(document, "").at("extensions").at(centre_extension).at("center");
+    if (centre.size() != 3) centre.fail(fmt::format("expected 3 numbers, found {}", centre.size()));
+    Transform t;
+    constexpr std::size_t x = 0, y = 1, z = 2;
+    t.m[0][3] = centre.at(x).real();
+    t.m[1][3] = centre.at(z).real();
+    t.m[2][3] = -centre.at(y).real();
+    put_above_roots(document, t);
+    document["extensions"].erase(centre_extension);
+    if (document["extensions"].empty()) document.erase("extensions");
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (!document.contains(list)) continue;
+        std::erase_if(document[list].get_ref<Json::array_t&>(),
+                      [&](const Json& used) { return used == centre_extension; });
+        if (document[list].empty()) document.erase(list);
+    }
+    return true;
+}
+
 Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& log) {
     const Chunks chunks = chunks_of(input);
     auto document = std::make_shared<Document>();
@@ -264,6 +290,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         document->json = to_string(json);
     }
     if (part_kinds(json, !settings.lines)) document->json = to_string(json);
+    if (place_at_centre(json)) document->json = to_string(json);
 
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::m);

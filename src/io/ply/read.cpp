@@ -39,6 +39,7 @@ class Builder {
     void add_corner_uvs();
     void add_textures(Scene& scene, const Header& header);
     std::vector<Index> texture_of_faces(std::size_t textures);
+    void warn_of_splats();
     void report_lists(const Table& table);
     void add_parts(Scene& scene);
 
@@ -259,6 +260,19 @@ void Builder::add_textures(Scene& scene, const Header& header) {
     if (!document.empty()) scene.documents.push_back(document.finish());
 }
 
+/// Splats are points with the shape of an ellipsoid. No stage turns or scales that shape.
+void Builder::warn_of_splats() {
+    for (const char* name : {"rot_0", "rot_3", "scale_0", "scale_2", "opacity", "f_dc_0"})
+        if (std::none_of(vertices_.element->properties.begin(), vertices_.element->properties.end(),
+                         [&](const Property& p) { return p.name == name; }))
+            return;
+    log_.warnings.push_back(
+        {Severity::warning, "W-SPLATS",
+         "the file has Gaussian splats, which are read as points: transforms, other units "
+         "and other up axes move them, but keep their shapes and colours",
+         file_mark(input_.name()), "crop keeps them whole; turn and scale splats with a splat editor"});
+}
+
 void Builder::report_lists(const Table& table) {
     for (std::size_t p = 0; p < table.columns.size(); ++p)
         if (!table.taken[p] && table.property(p).list && table.count() > 0)
@@ -310,6 +324,7 @@ Scene Builder::read() {
         add_colours(faces_, mesh_, Domain::face);
         add_others(faces_, mesh_, Domain::face);
     }
+    if (vertices_.element) warn_of_splats();
     report_lists(vertices_);
     report_lists(faces_);
     drop_short_faces(mesh_, input_.name(), log_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <type_traits>
@@ -60,6 +61,20 @@ Attribute attribute_of(const Table& table, const std::vector<std::size_t>& colum
     return a;
 }
 
+constexpr float most_byte = 255, most_word = 65535;
+
+/// The value of full brightness: 1, 255 or 65535, of which the header tells nothing. All numbers of the file
+/// decide together. Overbright fractions up to 2 stay fractions.
+float full_brightness(const std::vector<float>& values) {
+    constexpr float overbright = 2;
+    float largest = 0;
+    for (const float x : values)
+        if (std::isfinite(x)) largest = std::max(largest, x);
+    return largest > overbright && largest <= most_byte  ? most_byte
+           : largest > most_byte && largest <= most_word ? most_word
+                                                         : 1;
+}
+
 bool same_type(const Table& table, const std::vector<std::size_t>& columns) {
     for (const std::size_t c : columns)
         if (table.property(c).type != table.property(columns[0]).type) return false;
@@ -93,10 +108,16 @@ void add_colours(Table& table, Mesh& mesh, Domain domain) {
         if (same_type(table, columns) && type == Type::uint16) {
             colour.data = interleaved<std::uint16_t>(table, columns);
             colour.normalised = true;
-        } else if (type == Type::float32 || type == Type::float64)
-            colour.data = interleaved<float>(table, columns);
-        else {
-            colour.data = interleaved<std::uint8_t>(table, columns);
+        } else if (auto values = interleaved<float>(table, columns);
+                   type == Type::float32 || type == Type::float64) {
+            const float full = full_brightness(values);
+            for (float& x : values) x /= full;
+            colour.data = std::move(values);
+        } else {
+            if (full_brightness(values) == most_word)
+                colour.data = interleaved<std::uint16_t>(table, columns);
+            else
+                colour.data = interleaved<std::uint8_t>(table, columns);
             colour.normalised = true;
         }
         add_attribute(mesh, std::move(colour));

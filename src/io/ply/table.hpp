@@ -27,8 +27,8 @@ struct Table {
 inline constexpr std::pair<const char*, const char*> texture_points[] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
 
-/// Adds colours as COLOR_0 (3 or 4 components). Integers become fractions of their type's largest value: 16
-/// bits if all columns have 16 bits, otherwise 8. Floats stay unchanged.
+/// Adds colours as COLOR_0 (3 or 4 components). Integers become fractions of 16 bits if all columns have 16
+/// bits or a value needs them, otherwise of 8 bits. Floats up to 255 or 65535 become fractions of these.
 void add_colours(Table& table, Mesh& mesh, Domain domain);
 /// Adds nx, ny and nz as NORMAL.
 void add_normals(Table& table, Mesh& mesh);

@@ -2,6 +2,7 @@
 
 #include "base/text/words.hpp"
 #include "io/text.hpp"
+#include "io/threemf/layers.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -11,6 +12,17 @@ namespace facetmill::io::threemf {
 
 namespace {
 
+std::vector<std::string_view> words_of(std::string_view text) {
+    std::vector<std::string_view> words;
+    constexpr std::string_view blanks = " \t\r\n";
+    for (std::size_t at = text.find_first_not_of(blanks); at != text.npos;) {
+        const std::size_t end = std::min(text.find_first_of(blanks, at), text.size());
+        words.push_back(text.substr(at, end - at));
+        at = text.find_first_not_of(blanks, end);
+    }
+    return words;
+}
+
 class ModelReader {
   public:
     ModelReader(const std::string& archive, const std::string& path, std::size_t max_vertices)
@@ -19,6 +31,7 @@ class ModelReader {
     Model read(Span xml) {
         read_xml(xml, name_, handler());
         if (!is_model_) malformed(name_, 0, "E-3MF", "expected <model> as the outermost element");
+        for (const auto& [id, layers] : layers_) model_.groups[id] = blended(layers, model_.groups, name_);
         for (const auto& [id, object] : model_.objects) check(id, object);
         return std::move(model_);
     }
@@ -58,6 +71,10 @@ class ModelReader {
             group(e);
         else if (e.name == "base")
             base(e);
+        else if (e.name == "multiproperties")
+            layers(e);
+        else if (e.name == "multi")
+            layers_of_->multis.push_back(naturals(e, "pindices"));
         else if (e.name == "color")
             group_->colours.push_back(colour(e, "color"));
         else if (e.name == "metadata")
@@ -120,11 +137,12 @@ class ModelReader {
     }
     Use use(const Element& e) const {
         const auto path = e.find(fmt::format("{}|path", production_space));
-        return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e)};
+        return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e), true};
     }
 
     void item(const Element& e) {
         model_.items.push_back(use(e));
+        model_.items.back().printed = e.find("printable").value_or("1") != "0";
         if (!e.find("partnumber").value_or("").empty()) ++model_.skipped["partnumber of item"];
     }
 
@@ -170,7 +188,10 @@ class ModelReader {
             {"model", "build"},
             {"build", "item"}};
         static constexpr std::pair<std::string_view, std::string_view> colours[] = {
-            {"resources", "colorgroup"}, {"colorgroup", "color"}};
+            {"resources", "colorgroup"},
+            {"colorgroup", "color"},
+            {"resources", "multiproperties"},
+            {"multiproperties", "multi"}};
         const std::pair here(parent, e.name);
         if (e.space == material_space)
             return std::find(std::begin(colours), std::end(colours), here) != std::end(colours);
@@ -184,12 +205,8 @@ class ModelReader {
                                                [&](const UnitName& u) { return u.name == unit; });
         if (known == std::end(unit_names)) fail(e, fmt::format("there is no unit {}", in_quotes(unit)));
         model_.unit = known->unit;
-        std::string_view required = e.find("requiredextensions").value_or("");
-        while (!(required = trimmed(required)).empty()) {
-            const auto stop = std::min(required.find_first_of(" \t\r\n"), required.size());
-            const std::string prefix(required.substr(0, stop));
-            required = required.substr(stop);
-            const std::string& space = spaces_[prefix];
+        for (const std::string_view prefix : words_of(e.find("requiredextensions").value_or(""))) {
+            const std::string& space = spaces_[std::string(prefix)];
             if (space != material_space && space != production_space && space != core_space)
                 malformed(
                     name_, static_cast<int>(std::min<std::size_t>(e.line, INT32_MAX)), "E-EXTENSION",
@@ -281,6 +298,21 @@ class ModelReader {
         group_->colours.push_back(colour(e, "displaycolor"));
     }
 
+    std::vector<std::uint32_t> naturals(const Element& e, const char* attribute) const {
+        std::vector<std::uint32_t> numbers;
+        for (const std::string_view word : words_of(need(e, attribute)))
+            numbers.push_back(natural(e, attribute, word));
+        return numbers;
+    }
+    void layers(const Element& e) {
+        const std::uint32_t id = natural(e, "id");
+        claim(e, id, false);
+        layers_of_ = &layers_[id];
+        layers_of_->groups = naturals(e, "pids");
+        for (const std::string_view method : words_of(e.find("blendmethods").value_or("")))
+            layers_of_->multiply.push_back(method == "multiply");
+    }
+
     /// Checks that the vertices and properties that triangles name exist.
     void check(std::uint32_t id, const Object& object) {
         for (std::size_t c = 0; c < object.corners.size(); ++c)
@@ -324,6 +356,8 @@ class ModelReader {
     std::set<std::uint32_t> others_; ///< of resources that are not read
     Object* object_ = nullptr;
     Group* group_ = nullptr;
+    std::map<std::uint32_t, Layers> layers_;
+    Layers* layers_of_ = nullptr; ///< the resource being read
 };
 
 } // namespace

@@ -42,6 +42,7 @@ struct ObjectId {
 struct Use { ///< a component, or a build item
     ObjectId object;
     Transform transform;
+    bool printed = true; ///< false for items that PrusaSlicer and its kin show, but do not print
 };
 
 struct Object {

@@ -1,12 +1,14 @@
 #include "io/threemf/threemf.hpp"
 
 #include "base/json.hpp"
+#include "base/text/spelling.hpp"
 #include "base/text/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "io/attributes.hpp"
 #include "io/material_document.hpp"
 #include "io/text.hpp"
 #include "io/threemf/model.hpp"
+#include "io/threemf/slicer.hpp"
 #include "io/threemf/zip.hpp"
 #include "parallel/memory.hpp"
 
@@ -44,13 +46,16 @@ class SceneMaker {
   public:
     SceneMaker(const Input& input, const ReadSettings& settings, ReadLog& log)
         : name_(input.name()), settings_(settings), log_(log), archive_(input.bytes(), input.name()),
-          document_(input.name()) {}
+          volumes_(archive_, input.name()), document_(input.name()) {}
 
     Scene make() {
         const auto [path, count] = main_model(archive_, name_);
         if (count > 1)
             faults_.push_back(fmt::format("its relations name {} models: only '{}' is read", count, path));
-        const Model& main = model(path);
+        model(path);
+        Model& main = models_.at(path);
+        main_ = path;
+        volumes_.remove_from(main.objects, left_out_);
         scene_.unit = main.unit;
         scene_.up = UpAxis::z;
         std::vector<Use> items = main.items;
@@ -59,10 +64,10 @@ class SceneMaker {
             faults_.emplace_back("it builds nothing: the objects that no other object uses are read");
         }
         for (const Use& item : items) warn_of_item(item);
-        for (const Use& item : items) place(item, {}, "");
+        place_items(items);
         if (scene_.parts.empty() && !left_out_.empty()) {
             reads_all_types_ = true;
-            for (const Use& item : items) place(item, {}, "");
+            place_items(items);
         }
         keep_metadata(main);
         if (!document_.empty()) scene_.documents.push_back(document_.finish());
@@ -83,6 +88,14 @@ class SceneMaker {
         return models_.emplace(path, read_model(*xml, name_, path, settings_.max_vertices)).first->second;
     }
 
+    void place_items(const std::vector<Use>& items) {
+        for (const Use& item : items)
+            if (item.printed || reads_all_types_)
+                place(item, {}, "");
+            else
+                ++left_out_["printable=0"];
+    }
+
     /// The objects of a model without build items, except objects that are components of others.
     static std::vector<Use> unused(const Model& model, const std::string& path) {
         std::set<std::uint32_t> components;
@@ -91,7 +104,7 @@ class SceneMaker {
                 if (use.object.path == path) components.insert(use.object.id);
         std::vector<Use> items;
         for (const auto& [id, object] : model.objects)
-            if (!components.contains(id)) items.push_back({{path, id}, {}});
+            if (!components.contains(id)) items.push_back({{path, id}, {}, true});
         return items;
     }
 
@@ -121,7 +134,14 @@ class SceneMaker {
         if (!object.positions.empty()) add_part(use.object, object, world, named);
         open_.push_back(use.object);
         const bool instance = object.components.size() == 1 && !named.empty();
-        for (const Use& component : object.components) place(component, world, named, instance);
+        for (const Use& component : object.components) {
+            const std::string* purpose =
+                use.object.path == main_ ? volumes_.purpose(use.object.id, component.object.id) : nullptr;
+            if (purpose && !reads_all_types_)
+                ++left_out_[*purpose];
+            else
+                place(component, world, named, instance);
+        }
         open_.pop_back();
     }
 
@@ -250,20 +270,27 @@ class SceneMaker {
                 fmt::format("it builds object {}, whose type is 'other', which it must not", item.object.id));
     }
 
-    /// Supports and the like, which are no part of the product.
+    /// Supports, modifiers and the like, which are no part of the product.
     void warn_of_types() {
         if (left_out_.empty()) return;
         std::vector<std::string> words;
         words.reserve(left_out_.size());
-        for (const auto& [type, count] : left_out_)
+        bool negative = false;
+        for (const auto& [type, count] : left_out_) {
             words.push_back(fmt::format("{} {}", count, in_quotes(type)));
+            negative = negative || lower_case(type).starts_with("negative");
+        }
         std::string message =
             reads_all_types_
                 ? fmt::format("the file has no object of type 'model': others are read as such ({})",
                               fmt::join(words, ", "))
                 : fmt::format("objects that are not models are skipped: {}", fmt::join(words, ", "));
-        log_.warnings.push_back({Severity::warning, "W-SKIPPED", std::move(message), file_mark(name_),
-                                 reads_all_types_ ? "" : "change their type in the program that wrote them"});
+        log_.warnings.push_back(
+            {Severity::warning, "W-SKIPPED", std::move(message), file_mark(name_),
+             reads_all_types_ ? ""
+             : negative       ? "to cut a negative volume away, make it a separate object in the slicer, "
+                                "and subtract it with combine"
+                              : "change their type in the program that wrote them"});
     }
 
     void warn_of_faults() {
@@ -299,15 +326,17 @@ class SceneMaker {
     const ReadSettings& settings_;
     ReadLog& log_;
     Archive archive_;
+    SlicerVolumes volumes_;
     MaterialDocument document_;
     Scene scene_;
     std::map<std::string, Model> models_;
+    std::string main_;                           ///< the path of the main model
     std::map<ObjectId, std::size_t> first_part_; ///< the first part of each object, which repeated items copy
     std::map<MaterialId, Index> materials_;
     std::vector<ObjectId> open_;
     std::size_t uses_ = 0, vertices_ = 0;
     std::string extras_;                          ///< of the primitives of the object being read
-    std::map<std::string, std::size_t> left_out_; ///< placed objects by type, other than models
+    std::map<std::string, std::size_t> left_out_; ///< what is not printed, by type or purpose
     bool reads_all_types_ = false;
     std::vector<std::string> faults_; ///< broken rules of the specification
 };

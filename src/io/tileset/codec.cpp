@@ -1,5 +1,4 @@
 #include "io/gltf/document/container.hpp"
-#include "io/images/image_files.hpp"
 #include "io/tileset/tileset.hpp"
 
 namespace facetmill::io::tileset {
@@ -11,13 +10,8 @@ int sniff(Span bytes) { return gltf::is_tileset(as_text(bytes)) ? 2 : 0; }
 /// Lists the neighbouring tiles.
 void peek(const Input& input, FileHeader& header) {
     gltf::in_file(input, [&] {
-        const NamedFiles named = named_files(input);
-        header.files.insert(header.files.end(), named.read.begin(), named.read.end());
-        for (const auto& uri : named.uris) {
-            const auto relative = gltf::decoded_path(uri);
-            const auto path = relative ? path_below(input, *relative) : std::nullopt;
-            if (path) header.files.push_back(*path);
-        }
+        const auto named = named_files(input);
+        header.files.insert(header.files.end(), named.begin(), named.end());
     });
     header.has_materials = [] { return true; };
 }

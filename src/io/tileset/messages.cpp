@@ -4,8 +4,8 @@ namespace facetmill {
 
 const RegisterMessages tileset_messages{
     {"E-TILESET",
-     "facetmill cannot read this 3D Tiles tileset. It has a nested tileset, a required extension, content "
-     "other than GLB, or a broken subtree file of an implicit tiling.",
+     "facetmill cannot read this 3D Tiles tileset. It has a required extension, content other than GLB and "
+     "tilesets, a tileset nested in itself, or a broken subtree file of an implicit tiling.",
      "Load the files of its tiles one by one. facetmill reads explicit and implicit tilesets of GLB files.",
      ErrorKind::malformed},
     {"W-GEOCENTRIC",

@@ -11,9 +11,11 @@
 #include "mesh/transform.hpp"
 #include "parallel/memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <utility>
 
 namespace facetmill::io::tileset {
 
@@ -35,26 +37,55 @@ Transform transform_of(const JsonCursor& tile) {
     return t;
 }
 
+/// The turn from a content's axes to z up. Tilesets before version 1.0 may state the axis that glTF files
+/// have up.
+Transform turn_of_contents(const JsonCursor& tileset) {
+    const auto asset = tileset.find("asset");
+    const std::string axis = asset ? asset->text_or("gltfUpAxis", "Y") : "Y";
+    if (axis == "Y" || axis == "y") return turn_up(UpAxis::y, UpAxis::z);
+    Transform t;
+    if (axis == "Z" || axis == "z") return t;
+    if (axis != "X" && axis != "x") asset->at("gltfUpAxis").fail("expected X, Y or Z", "E-TILESET");
+    t.m[0][0] = t.m[2][2] = 0;
+    t.m[0][2] = -1;
+    t.m[2][0] = 1;
+    return t;
+}
+
 /// A content file of a tile, and its place in the tileset.
 struct Content {
     std::string uri, place;
-    Transform transform;
+    Transform transform; ///< from the axes of the file
+    Input tileset;       ///< that names the file
 };
 
-/// The contents shown when every tile is refined.
+/// The contents shown when every tile is refined, also of tilesets that are contents themselves.
 class Contents {
   public:
-    explicit Contents(const Input& input)
-        : input_(input), json_(gltf::parse_document(as_text(input.bytes()))) {
-        const JsonCursor tileset(json_, "");
-        if (const auto required = tileset.find("extensionsRequired"); required && required->size() > 0)
-            not_read(*required, "tilesets that require extensions");
-        visit(tileset.at("root"), {}, true);
-    }
+    explicit Contents(const Input& input) { add_tileset(input, {}); }
     std::vector<Content> all;
-    std::vector<Input> subtrees; ///< files that list the existing implicit tiles
+    std::vector<Input> others; ///< nested tilesets, and files that list the existing implicit tiles
 
   private:
+    void add_tileset(const Input& input, const Transform& above) {
+        constexpr std::size_t deepest = 32;
+        if (open_.size() >= deepest || std::find(open_.begin(), open_.end(), input.path()) != open_.end())
+            throw Error(
+                ErrorKind::malformed, "E-TILESET",
+                fmt::format("'{}' is nested in itself, or deeper than {} tilesets", input.name(), deepest));
+        open_.push_back(input.path());
+        const Json json = gltf::parse_document(as_text(input.bytes()));
+        const JsonCursor tileset(json, "");
+        if (const auto required = tileset.find("extensionsRequired"); required && required->size() > 0)
+            not_read(*required, "tilesets that require extensions");
+        const Input* const input_above = std::exchange(input_, &input);
+        const Transform turn_above = std::exchange(turn_, turn_of_contents(tileset));
+        visit(tileset.at("root"), above, true);
+        input_ = input_above;
+        turn_ = turn_above;
+        open_.pop_back();
+    }
+
     /// The JSON parser limits the nesting.
     void visit(const JsonCursor& tile, const Transform& above, bool replaces) {
         const Transform here = above * transform_of(tile);
@@ -74,17 +105,25 @@ class Contents {
 
     void add(const JsonCursor& content, const Transform& here) {
         const JsonCursor uri = content.at("uri");
-        all.push_back({uri.text(), uri.path(), here});
+        const std::string text = uri.text();
+        if (text.substr(0, text.find('?')).ends_with(".json")) {
+            const Input nested = file_below(*input_, text, uri.path());
+            others.push_back(nested);
+            return gltf::in_file(nested, [&] { add_tileset(nested, here); });
+        }
+        all.push_back({text, uri.path(), here * turn_, *input_});
     }
 
     void add_implicit(const JsonCursor& tile, const Transform& here, bool replaces) {
-        ImplicitContents found = read_implicit(tile, replaces, input_);
-        for (std::string& uri : found.uris) all.push_back({std::move(uri), tile.path() + ".content", here});
-        subtrees.insert(subtrees.end(), found.files.begin(), found.files.end());
+        ImplicitContents found = read_implicit(tile, replaces, *input_);
+        for (std::string& uri : found.uris)
+            all.push_back({std::move(uri), tile.path() + ".content", here * turn_, *input_});
+        others.insert(others.end(), found.files.begin(), found.files.end());
     }
 
-    const Input& input_;
-    Json json_;
+    const Input* input_ = nullptr; ///< the tileset being read
+    Transform turn_;               ///< turn_of_contents
+    std::vector<std::filesystem::path> open_;
 };
 
 /// Merges equal materials of several files.
@@ -123,8 +162,8 @@ void log_file(const Input& file, ReadLog& log) {
     log.files.push_back({file.path(), file.stored().size(), sha256(file.stored())});
 }
 
-Scene read_tile(const Input& input, const Content& content, const ReadSettings& settings, ReadLog& log) {
-    const Input file = file_below(input, content.uri, content.place);
+Scene read_tile(const Content& content, const ReadSettings& settings, ReadLog& log) {
+    const Input file = file_below(content.tileset, content.uri, content.place);
     if (!gltf::is_glb(file.bytes()))
         throw Error(ErrorKind::malformed, "E-TILESET",
                     fmt::format("{}: '{}' is not a GLB, and facetmill reads no other contents of tiles",
@@ -140,11 +179,15 @@ Scene read_tile(const Input& input, const Content& content, const ReadSettings& 
 
 } // namespace
 
-NamedFiles named_files(const Input& tileset) {
+std::vector<std::filesystem::path> named_files(const Input& tileset) {
     const Contents contents(tileset);
-    NamedFiles named;
-    for (const Content& content : contents.all) named.uris.push_back(content.uri);
-    for (const Input& file : contents.subtrees) named.read.push_back(file.path());
+    std::vector<std::filesystem::path> named;
+    for (const Input& file : contents.others) named.push_back(file.path());
+    for (const Content& content : contents.all) {
+        const auto relative = gltf::decoded_path(content.uri);
+        const auto path = relative ? path_below(content.tileset, *relative) : std::nullopt;
+        if (path) named.push_back(*path);
+    }
     return named;
 }
 
@@ -152,7 +195,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     return gltf::in_file(input, [&] {
         const Contents named(input);
         const std::vector<Content>& contents = named.all;
-        for (const Input& file : named.subtrees) log_file(file, log);
+        for (const Input& file : named.others) log_file(file, log);
         Scene scene;
         scene.unit = settings.unit.value_or(Unit::m);
         scene.up = settings.up.value_or(UpAxis::z);
@@ -162,14 +205,13 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         constexpr double memory_per_byte = 4; // as for other meshes
         ProgressSteps steps(std::vector<double>(contents.size() + 1, 1));
         for (const Content& content : contents) {
-            Scene tile = read_tile(input, content, settings, log);
+            Scene tile = read_tile(content, settings, log);
             bytes += static_cast<double>(log.files.back().bytes);
             require_memory(memory_per_byte * bytes, fmt::format("reading the tiles of '{}'", input.name()),
                            "load some of its tiles, or use a machine with more memory");
             materials.take(tile);
-            const Transform to_tileset = content.transform * turn_up(UpAxis::y, UpAxis::z);
             for (Part& part : tile.parts) {
-                apply(part.mesh, to_tileset * part.transform);
+                apply(part.mesh, content.transform * part.transform);
                 append(all.mesh, part.mesh);
             }
             if (all.mesh.wedge_count() > settings.max_vertices)

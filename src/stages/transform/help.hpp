@@ -14,6 +14,6 @@ They change the nodes of the parts, not the meshes, unless bake is on.
 Mirrored faces keep their front side, as glTF requires.
 The ground is at 0 along the up axis, or along +Z if the up axis is unknown.
 A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.
-Cameras and lights of a glTF file move with its parts, if all of its parts move.)";
+Cameras, lights, empty nodes and animations of a glTF file move with its parts, if all of its parts move.)";
 
 } // namespace facetmill::help::transform

@@ -52,8 +52,6 @@ class Mover {
         if (!o_.translate.empty()) move(moved(translation()));
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
-        if (scene_.parts.empty() && !all_.identity())
-            context_.warn("W-TRANSFORM", "transform: the scene has no meshes, so no node is moved");
         if (o_.bake) bake();
         return {all_, converted.factor, fit, to_string(scene_.unit), to_string(scene_.up)};
     }

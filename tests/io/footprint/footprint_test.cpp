@@ -41,6 +41,30 @@ TEST_CASE("footprints from GeoJSON", "[io]") {
     CHECK(refusal("{\"type\": ").starts_with("malformed [E-GEOJSON]"));
 }
 
+TEST_CASE("what a GeoJSON has besides polygons is named, and so are degrees", "[io]") {
+    const auto warnings = [](const std::string& text) {
+        io::Bytes bytes(text.size());
+        std::memcpy(bytes.data(), text.data(), text.size());
+        return io::read_footprint(io::Input::of("outline", std::move(bytes))).warnings;
+    };
+    const std::string polygon = R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4]]]})";
+    CHECK(warnings(polygon).empty());
+    const auto mixed = warnings(R"({"type": "GeometryCollection", "geometries": [)" + polygon +
+                                R"(, {"type": "LineString", "coordinates": [[0, 0], [1, 1]]},
+        {"type": "Point", "coordinates": [1, 2]}, {"type": "Point", "coordinates": [1, 2]}]})");
+    REQUIRE(mixed.size() == 1);
+    CHECK(mixed[0].id == "W-FOOTPRINT");
+    CHECK(mixed[0].message ==
+          "1 LineString and 2 Point geometries are left out: only polygons have an inside");
+    const auto in = [&](const char* crs) {
+        return warnings(polygon.substr(0, polygon.size() - 1) +
+                        R"(, "crs": {"type": "name", "properties": {"name": ")" + crs + "\"}}}");
+    };
+    REQUIRE(in("urn:ogc:def:crs:OGC:1.3:CRS84").size() == 1);
+    CHECK(in("EPSG:4326").at(0).id == "W-FOOTPRINT");
+    CHECK(in("urn:ogc:def:crs:EPSG::25832").empty());
+}
+
 TEST_CASE("footprints from WKT", "[io]") {
     const auto rings = read("SRID=4326;POLYGON Z((0 0 5, 4 0 5, 4 4 5), (1 1 5,2 1 5,2 2 5))\n");
     REQUIRE(rings.size() == 2);

@@ -295,6 +295,81 @@ TEST_CASE("what slicers paint on triangles is named", "[io]") {
                                              "triangle (1), paint_color of triangle (1)");
 }
 
+TEST_CASE("volumes of slicers that are not printed are left out and named", "[io]") {
+    const auto box = [](double x) { // two triangles at x
+        return fmt::format("<vertex x=\"{0}\" y=\"0\" z=\"0\"/><vertex x=\"{0}\" y=\"1\" z=\"0\"/>"
+                           "<vertex x=\"{0}\" y=\"0\" z=\"1\"/><vertex x=\"{0}\" y=\"1\" z=\"1\"/>",
+                           x);
+    };
+    const std::string two = "<object id=\"1\"><mesh><vertices>" + box(0) + box(5) + R"(</vertices><triangles>
+<triangle v1="0" v2="1" v3="2"/><triangle v1="1" v2="3" v3="2"/>
+<triangle v1="4" v2="5" v3="6"/><triangle v1="5" v2="7" v3="6"/></triangles></mesh></object>)";
+    const auto settings = [](const char* type) {
+        return fmt::format(R"(<?xml version="1.0"?><config><object id="1">
+<volume firstid="0" lastid="1"><metadata type="volume" key="volume_type" value="ModelPart"/></volume>
+<volume firstid="2" lastid="3"><metadata type="volume" key="volume_type" value="{}"/></volume>
+</object></config>)",
+                           type);
+    };
+    for (const char* type : {"NegativeVolume", "ParameterModifier", "SupportEnforcer"}) {
+        const Loaded some =
+            load(io::threemf::make_archive({file("3D/3dmodel.model", model(two, R"(<item objectid="1"/>)")),
+                                            file("Metadata/Slic3r_PE_model.config", settings(type))}));
+        REQUIRE(some.scene.parts.size() == 1);
+        CHECK(some.scene.parts[0].mesh.face_count() == 2);
+        CHECK(some.scene.parts[0].mesh.vertex_count() == 4);
+        CHECK(some.scene.bounds().max.x == 0);
+        CHECK(some.log.warnings.at(0).message ==
+              fmt::format("objects that are not models are skipped: 1 '{}'", type));
+    }
+    const Loaded all =
+        load(io::threemf::make_archive({file("3D/3dmodel.model", model(two, R"(<item objectid="1"/>)")),
+                                        file("Metadata/Slic3r_PE_model.config", settings("ModelPart"))}));
+    CHECK(all.scene.face_count() == 4);
+    CHECK(all.log.warnings.empty());
+    const std::string parts =
+        fmt::format("<object id=\"1\">{0}</object><object id=\"2\">{0}</object><object id=\"3\"><components>"
+                    "<component objectid=\"1\"/><component objectid=\"2\"/></components></object>",
+                    one_triangle);
+    const Loaded bambu = load(io::threemf::make_archive(
+        {file("3D/3dmodel.model", model(parts, R"(<item objectid="3"/>)")),
+         file("Metadata/model_settings.config", R"(<?xml version="1.0"?><config><object id="3">
+<part id="1" subtype="normal_part"/><part id="2" subtype="negative_part"/></object></config>)")}));
+    CHECK(bambu.scene.parts.size() == 1);
+    CHECK(bambu.log.warnings.at(0).message == "objects that are not models are skipped: 1 'negative_part'");
+    CHECK(bambu.log.warnings.at(0).hint.find("combine") != std::string::npos);
+    const std::string object = fmt::format("<object id=\"1\">{}</object>", one_triangle);
+    const Loaded items = load(
+        archive(model(object, R"(<item objectid="1" printable="1"/><item objectid="1" printable="0"/>)")));
+    CHECK(items.scene.parts.size() == 1);
+    CHECK(items.log.warnings.at(0).message == "objects that are not models are skipped: 1 'printable=0'");
+    CHECK(load(archive(model(object, R"(<item objectid="1" printable="0"/>)"))).scene.parts.size() == 1);
+}
+
+TEST_CASE("multiproperties of 3MF show their layers together", "[io]") {
+    const std::string resources =
+        R"(<basematerials id="1"><base name="red" displaycolor="#FF0000"/></basematerials>
+<m:colorgroup id="2"><m:color color="#00FF00"/><m:color color="#0000FF80"/></m:colorgroup>
+<m:multiproperties id="3" pids="1 2"><m:multi pindices="0 0"/><m:multi pindices="0 1"/></m:multiproperties>
+<m:multiproperties id="4" pids="1 2" blendmethods="multiply"><m:multi pindices="0"/></m:multiproperties>
+<object id="9"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>
+</vertices><triangles><triangle v1="0" v2="1" v3="2" pid="3" p1="0"/><triangle v1="0" v2="1" v3="2" pid="3" p1="1"/>
+<triangle v1="0" v2="1" v3="2" pid="4" p1="0"/></triangles></mesh></object>)";
+    const Loaded loaded = load(archive(model(resources, R"(<item objectid="9"/>)")));
+    CHECK(loaded.log.warnings.empty());
+    const Mesh& m = loaded.scene.parts.at(0).mesh;
+    CHECK(colour_at(m, 0) == std::array{0, 255, 0, 255});
+    const std::array<int, 4> mixed = colour_at(m, 3); // half red and half blue in linear light
+    CHECK(std::abs(mixed[0] - 188) <= 1);
+    CHECK(std::abs(mixed[2] - 188) <= 1);
+    CHECK(mixed[3] == 255);
+    CHECK(colour_at(m, 6) == std::array{0, 0, 0, 255}); // red times green
+    CHECK(refused(archive(model(R"(<m:colorgroup id="2"><m:color color="#00FF00"/></m:colorgroup>
+<m:multiproperties id="3" pids="2"><m:multi pindices="7"/></m:multiproperties>)",
+                                "")))
+              .find("multiproperties name property 7 of group 2, which has 1") != std::string::npos);
+}
+
 TEST_CASE("3MF keeps its metadata and part numbers, and glTF gets them", "[io]") {
     std::string text =
         model(R"(<object id="1" partnumber="A-17">)" + one_triangle + "</object>", R"(<item objectid="1"/>)");

@@ -354,6 +354,46 @@ TEST_CASE("a tileset is recognised by its members, and a glTF by its own", "[io]
           "gltf");
 }
 
+TEST_CASE("nested tilesets are placed by the tiles above them, with the axes that they state",
+          "[io][tileset]") {
+    const TemporaryDirectory folder;
+    Scene box = ball(); // from (0, -3, 0) to (1, 0, 2) with z up
+    Mesh mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p = {p.x, 3 * p.y - 3, 2 * p.z};
+    box.parts[0].mesh = mesh;
+    io::WriteSettings settings;
+    settings.title = "box";
+    io::convert(box, {Unit::m, UpAxis::y});
+    put(folder.path() / "box.glb",
+        io::as_text(io::codec_named("glb")->write(box, settings).files.front().bytes));
+    const std::string head = R"({"asset": {"version": "1.1")", rest = R"(}, "geometricError": 1, "root": )";
+    const auto bounds_of = [&](const std::string& outer, const std::string& inner) {
+        put(folder.path() / "inner.json", inner);
+        put(folder.path() / "tileset.json", outer);
+        io::ReadLog log;
+        const Box bounds = io::read_scene(io::Input::open(folder.path() / "tileset.json"), {}, log).bounds();
+        CHECK(log.files.size() == 2); // the nested tileset and the tile
+        return bounds;
+    };
+    const std::string outer =
+        head + rest + R"({"refine": "ADD", "transform": [0,1,0,0, -1,0,0,0, 0,0,1,0, 100,0,0,1],
+        "children": [{"content": {"uri": "inner.json"}}]}})";
+    const std::string root =
+        R"({"transform": [1,0,0,0, 0,1,0,0, 0,0,1,0, 10,0,0,1], "content": {"uri": "box.glb"}}})";
+    const Box turned = bounds_of(outer, head + rest + root);
+    CHECK(turned.min == Vec3{100, 10, 0});
+    CHECK(turned.max == Vec3{103, 11, 2});
+    // The file has the box with y up: from (0, 0, 0) to (1, 2, 3).
+    const Box as_it_is = bounds_of(outer, head + R"(, "gltfUpAxis": "Z")" + rest + root);
+    CHECK(as_it_is.min == Vec3{98, 10, 0});
+    CHECK(as_it_is.max == Vec3{100, 11, 3});
+    const Box from_x = bounds_of(outer, head + R"(, "gltfUpAxis": "X")" + rest + root);
+    CHECK(from_x.max.z - from_x.min.z == 1);
+    CHECK(from_x.max.x - from_x.min.x == 2);
+    const std::string itself = head + rest + R"({"content": {"uri": "inner.json"}}})";
+    CHECK(failure([&] { bounds_of(itself, itself); }).find("E-TILESET") != std::string::npos);
+}
+
 TEST_CASE("what is not read of a tileset is refused by name", "[io][tileset]") {
     const TemporaryDirectory folder;
     const auto refused = [&](const std::string& root) {

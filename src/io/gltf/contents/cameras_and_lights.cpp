@@ -1,7 +1,8 @@
-// Cameras and lights move along with a scene that moves as a whole.
+// Cameras, lights and nodes without contents move along with a scene that moves as a whole.
 
 #include "base/math/numbers.hpp"
 #include "io/gltf/document/nodes.hpp"
+#include "io/gltf/document/roots.hpp"
 #include "io/gltf/gltf.hpp"
 
 #include <algorithm>
@@ -45,11 +46,6 @@ void scale_numbers(Json& document, double factor) {
     }
 }
 
-void set_matrix(Json& node, const Transform& local) {
-    for (const char* key : {"translation", "rotation", "scale", "matrix"}) node.erase(key);
-    if (!local.identity()) node["matrix"] = matrix(local);
-}
-
 /// Puts a new node with this transform between a node and its parent.
 void put_above(Json& document, std::size_t node, const Transform& local) {
     const std::size_t above = document["nodes"].size();
@@ -61,22 +57,50 @@ void put_above(Json& document, std::size_t node, const Transform& local) {
     for (std::size_t s = 0; s < count_of(document, "scenes"); ++s) replace(document["scenes"][s], "nodes");
     for (std::size_t n = 0; n < above; ++n) replace(document["nodes"][n], "children");
     document["nodes"].push_back({{"children", {node}}});
-    set_matrix(document["nodes"][above], local);
+    put_matrix(document["nodes"][above], local);
 }
 
-/// Moves the nodes of cameras and lights without a mesh. All other nodes keep their places in the world.
+/// [nodes] nodes that draw nothing, also below them, and that no joint or animation moves: the places to
+/// which applications attach things.
+std::vector<bool> places(const Json& document, const std::vector<NodeFrame>& frames,
+                         const std::set<std::size_t>& animated) {
+    std::vector<bool> draws(frames.size()), moved_by_others(frames.size());
+    for (const std::size_t joint : joint_nodes(document))
+        if (joint < frames.size()) draws[joint] = moved_by_others[joint] = true;
+    for (const std::size_t n : animated) moved_by_others[n] = true;
+    const std::vector<std::size_t> order = parents_first(frames);
+    for (auto n = order.rbegin(); n != order.rend(); ++n) {
+        draws[*n] = draws[*n] || frames[*n].mesh >= 0;
+        if (draws[*n] && frames[*n].parent >= 0) draws[static_cast<std::size_t>(frames[*n].parent)] = true;
+    }
+    std::vector<bool> all(frames.size());
+    for (const std::size_t n : order) {
+        if (frames[n].parent >= 0 && moved_by_others[static_cast<std::size_t>(frames[n].parent)])
+            moved_by_others[n] = true;
+        all[n] = !draws[n] && !moved_by_others[n];
+    }
+    return all;
+}
+
+/// The transform without the scale of a scene that has grown. Cameras, lights and attached things keep
+/// theirs.
+Transform without_growth(Transform world, double growth) {
+    for (auto& row : world.m)
+        for (std::size_t c = 0; c < 3; ++c) row[c] /= growth;
+    return world;
+}
+
+/// Moves the nodes of cameras, lights and places. All other nodes keep their places in the world.
 void move_nodes(Json& document, const Transform& by, double growth) {
     const auto frames = node_frames(document);
     const auto animated = animated_nodes(document);
+    const std::vector<bool> is_place = places(document, frames, animated);
     std::vector<Transform> wanted;
     wanted.reserve(frames.size());
     for (const NodeFrame& frame : frames) wanted.push_back(frame.world);
     for (const std::size_t n : parents_first(frames)) {
-        if (frames[n].mesh < 0 && has_camera_or_light(document["nodes"][n])) {
-            wanted[n] = by * frames[n].world;
-            for (auto& row : wanted[n].m)
-                for (std::size_t c = 0; c < 3; ++c) row[c] /= growth;
-        }
+        if (is_place[n] || (frames[n].mesh < 0 && has_camera_or_light(document["nodes"][n])))
+            wanted[n] = without_growth(by * frames[n].world, growth);
         const auto parent = static_cast<std::size_t>(frames[n].parent);
         const bool below = frames[n].parent >= 0;
         if (wanted[n] == frames[n].world && (!below || wanted[parent] == frames[parent].world)) continue;
@@ -86,8 +110,42 @@ void move_nodes(Json& document, const Transform& by, double growth) {
         if (animated.contains(n))
             put_above(document, n, *up * wanted[n] * *down);
         else
-            set_matrix(document["nodes"][n], *up * wanted[n]);
+            put_matrix(document["nodes"][n], *up * wanted[n]);
     }
+}
+
+/// Gives cameras and lights below scaled roots a node without that scale.
+void undo_growth(Json& document, double growth) {
+    const std::size_t count = count_of(document, "nodes");
+    for (std::size_t n = 0; n < count; ++n) {
+        if (!has_camera_or_light(document["nodes"][n])) continue;
+        Json below = {{"scale", Json::array({1 / growth, 1 / growth, 1 / growth})}};
+        Json& node = document["nodes"][n];
+        if (node.contains("camera")) below["camera"] = node["camera"];
+        node.erase("camera");
+        if (node.contains("extensions") && node["extensions"].contains(lights_extension)) {
+            below["extensions"][lights_extension] = node["extensions"][lights_extension];
+            node["extensions"].erase(lights_extension);
+            if (node["extensions"].empty()) node.erase("extensions");
+        }
+        node["children"].push_back(document["nodes"].size());
+        document["nodes"].push_back(std::move(below));
+    }
+}
+
+/// Moves all nodes of a document. Its animations play around the new places.
+void move_all(Scene& scene, int d, Json& document, const Transform& by, double growth) {
+    const auto before = node_frames(document);
+    put_above_roots(document, by);
+    const auto after = node_frames(document);
+    for (Part& part : scene.parts) {
+        if (part.document != d || part.node < 0 || part.skinned) continue;
+        const auto n = static_cast<std::size_t>(part.node);
+        const bool shown = after[n].parent >= 0 || !(after[n].world == before[n].world);
+        // The same numbers as the document's, so that the node counts as unchanged.
+        if (shown && part.transform == by * before[n].world) part.transform = after[n].world;
+    }
+    if (growth != 1) undo_growth(document, growth);
 }
 
 } // namespace
@@ -95,17 +153,23 @@ void move_nodes(Json& document, const Transform& by, double growth) {
 void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by) {
     if (by.identity()) return;
     for (std::size_t d = 0; d < scene.documents.size(); ++d) {
-        const std::string& text = scene.documents[d]->json;
-        if (text.find("\"cameras\"") == std::string::npos && text.find(lights_extension) == std::string::npos)
-            continue;
-        bool all = true;
-        for (std::size_t i = 0; i < moved.size(); ++i)
-            all = all && (moved[i] || scene.parts[i].document != static_cast<int>(d));
-        Json json = parse_document(text);
-        if (!all || uses_extension(json, "KHR_animation_pointer")) continue; // which may drive their numbers
+        const int number = static_cast<int>(d);
+        bool all = true, any = false;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            if (scene.parts[i].document != number) continue;
+            all = all && moved[i];
+            any = true;
+        }
+        Json json = parse_document(scene.documents[d]->json);
+        const bool pointers = uses_extension(json, "KHR_animation_pointer"); // may drive their numbers
+        if (!all || pointers || count_of(json, "nodes") == 0) continue;
         const double growth = length_growth(by);
         if (growth != 1) scale_numbers(json, growth);
-        move_nodes(json, by, growth);
+        // Skins move with their parts, which differ from the document until they are written.
+        if (!any || (count_of(json, "skins") == 0 && !animated_nodes(json).empty()))
+            move_all(scene, number, json, by, growth);
+        else
+            move_nodes(json, by, growth);
         auto document = std::make_shared<Document>(*scene.documents[d]);
         document->json = to_string(json);
         scene.documents[d] = std::move(document);

@@ -3,11 +3,13 @@
 #include "base/math/numbers.hpp"
 #include "io/gltf/document/builder.hpp"
 #include "io/gltf/document/nodes.hpp"
+#include "io/gltf/document/roots.hpp"
 #include "io/gltf/numbers/quantise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::io::gltf {
 
@@ -153,10 +155,25 @@ void shorten(Json& document, const Box& bounds, const std::vector<Transform>& wo
     each_real(document, as_integer);
 }
 
+namespace {
+
+/// Whether the name is all that a node has: applications find such a node by its name and put things there.
+bool is_named_place(const Json& node) {
+    for (const auto& [key, value] : node.items())
+        if (key != "name" && key != "translation" && key != "rotation" && key != "scale" && key != "matrix")
+            return false;
+    return true;
+}
+
+} // namespace
+
 void drop_names(Json& document) {
+    const std::set<std::size_t> joints = joint_nodes(document);
     for (const char* list : {"nodes", "meshes", "accessors", "bufferViews", "buffers", "images", "textures",
                              "samplers", "skins"})
-        for (std::size_t i = 0; i < count_of(document, list); ++i) document[list][i].erase("name");
+        for (std::size_t i = 0; i < count_of(document, list); ++i)
+            if (list != std::string_view("nodes") || joints.contains(i) || !is_named_place(document[list][i]))
+                document[list][i].erase("name");
     if (document.contains("asset")) document["asset"].erase("generator");
 }
 

@@ -83,6 +83,14 @@ TEST_CASE("names go on request, not those that something is looked up by", "[io]
     for (const char* list : {"materials", "animations", "scenes", "cameras"})
         CHECK(json[list][0].contains("name"));
 
+    // Joints, and nodes with other contents, lose their names. A node without contents is found by its name.
+    Json places = Json::parse(R"({"nodes":[{"name":"seat","translation":[1,2,3]},{"name":"bone"},
+        {"name":"group","children":[0]}],"skins":[{"joints":[1]}]})");
+    io::gltf::drop_names(places);
+    CHECK(places["nodes"][0]["name"] == "seat");
+    CHECK(!places["nodes"][1].contains("name"));
+    CHECK(!places["nodes"][2].contains("name"));
+
     const Scene scene = test::scene_in_metres(shapes::cube(), "thing");
     io::WriteSettings settings;
     CHECK(test::json_of(test::written(scene, "glb", settings).files[0].bytes).find("thing") !=
