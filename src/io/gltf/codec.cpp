@@ -384,8 +384,25 @@ void keep_assets(Patch& patch) {
         if (from == other.end() || !from->is_object()) continue;
         if (from->contains("copyright") && !asset.contains("copyright"))
             asset["copyright"] = (*from)["copyright"];
-        if (from->contains("extras") && !asset.contains("extras")) asset["extras"] = (*from)["extras"];
+        const Json extras = from->value("extras", Json::object());
+        if (!asset.contains("extras") && !extras.empty()) asset["extras"] = extras;
+        if (asset.contains("extras") && asset["extras"].is_object() && extras.is_object())
+            for (const auto& [name, value] : extras.items()) // those of the first document stay
+                if (!asset["extras"].contains(name)) asset["extras"][name] = value;
     }
+}
+
+/// Whether the copyright or extras of a second document's asset differ from those that are written.
+bool has_other_metadata(const Patch& patch, const Json& other) {
+    const Json& asset = patch.builder.json()["asset"];
+    const Json from = other.value("asset", Json::object());
+    if (from.contains("copyright") && from["copyright"] != asset["copyright"]) return true;
+    if (!from.contains("extras") || from["extras"] == asset["extras"]) return false;
+    if (!from["extras"].is_object()) return true;
+    const auto items = from["extras"].items();
+    return std::any_of(items.begin(), items.end(), [&](const auto& item) {
+        return !asset["extras"].contains(item.key()) || asset["extras"][item.key()] != item.value();
+    });
 }
 
 /// Warns that only the meshes and materials of a second document are written.
@@ -396,6 +413,7 @@ void warn_of_losses(Patch& patch) {
         std::vector<std::string> lost;
         for (const char* list : {"animations", "skins", "cameras", "extensions"})
             if (other.contains(list) && !other[list].empty()) lost.push_back(list);
+        if (has_other_metadata(patch, other)) lost.emplace_back("metadata");
         if (!lost.empty())
             patch.warn("W-MERGED",
                        fmt::format("of '{}' only the meshes and materials are written, without its {}",
