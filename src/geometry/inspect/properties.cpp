@@ -251,7 +251,8 @@ constexpr Property table[] = {
      .also_called = "bbox bounding_box aabb extents",
      .kind = Kind::box,
      .join = Join::around,
-     .help = "The bounding box. Its lowest corner is at least {min: [x, y, z]}, its highest corner at most "
+     .help = "The bounding box of all vertices, with skinned parts in their bind pose and animated nodes at "
+             "rest. Its lowest corner is at least {min: [x, y, z]}, its highest corner at most "
              "{max: [x, y, z]}.",
      .hint = cuts_to_size,
      .member = &P::bounds,
