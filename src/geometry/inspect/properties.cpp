@@ -410,6 +410,7 @@ constexpr Property table[] = {
              "and from their centroids to any surface. It is 0 at edges and tips sharper than 45 degrees; "
              "blunter edges are corners.",
      .hint = "no stage thickens the walls of a solid, but transform can scale all of it",
+     .measure = thinnest_wall,
      .of_faces = wall_thicknesses,
      .counts_locations = true},
     {.name = "uvs_in_range",
