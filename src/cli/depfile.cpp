@@ -3,9 +3,6 @@
 #include "base/ordered_set.hpp"
 #include "io/outputs/outputs.hpp"
 
-#include <algorithm>
-#include <chrono>
-
 namespace facetmill::cli {
 
 std::string make_escaped(const std::string& path, bool target) {
@@ -39,8 +36,6 @@ std::string depfile_text(const std::string& target, const std::vector<std::strin
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The files of a run as Make and Ninja name them, without standard input and output.
 class Paths {
   public:
@@ -52,15 +47,6 @@ class Paths {
   private:
     OrderedSet<std::string> once_;
 };
-
-/// The folder whose time changes when the file appears.
-fs::path folder_of_absent(const fs::path& file) {
-    std::error_code ignored;
-    fs::path folder = fs::absolute(file).parent_path();
-    while (folder.has_relative_path() && !fs::is_directory(folder, ignored)) folder = folder.parent_path();
-    const fs::path near = folder.lexically_relative(fs::current_path());
-    return file.is_absolute() || near.empty() ? folder : near;
-}
 
 /// The possible targets, the best first.
 std::vector<std::string> targets_of(const report::RunRecord& record, const std::string& depfile) {
@@ -74,29 +60,6 @@ std::vector<std::string> targets_of(const report::RunRecord& record, const std::
     return all;
 }
 
-/// Makes an output newer than the folder of a missing file next to it, because otherwise the rule would run
-/// again each time.
-void make_newer_than_folders(const report::RunRecord& record, std::optional<fs::file_time_type> kept_before) {
-    constexpr std::chrono::milliseconds tick(20); // file times come from a clock with this granularity
-    const auto is_kept = [&](const std::string& path) {
-        std::error_code ignored;
-        return kept_before && fs::last_write_time(path, ignored) < *kept_before - tick;
-    };
-    std::vector<std::string> written = record.reports;
-    for (const auto& file : record.outputs) written.push_back(file.path);
-    const auto now = fs::file_time_type::clock::now();
-    for (const auto& path : written) {
-        const auto is_this = [&](const report::FileRecord& input) {
-            std::error_code ignored;
-            return fs::equivalent(input.path, path, ignored);
-        };
-        std::error_code ignored; // a failure only causes a needless run
-        if (fs::is_regular_file(path, ignored) && !is_kept(path) &&
-            std::none_of(record.inputs.begin(), record.inputs.end(), is_this))
-            fs::last_write_time(path, now, ignored);
-    }
-}
-
 } // namespace
 
 void require_spellable(const std::string& target, const pipeline::Plan& plan) {
@@ -107,17 +70,14 @@ void require_spellable(const std::string& target, const pipeline::Plan& plan) {
 }
 
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
-                   const pipeline::Plan& plan, const report::RunRecord& record,
-                   std::optional<fs::file_time_type> kept_before) {
+                   const pipeline::Plan& plan, const report::RunRecord& record) {
     Paths inputs;
     if (!pipeline_file.empty()) inputs.add(pipeline_file);
     for (const auto& file : record.inputs) inputs.add(file.path);
     for (const auto& file : pipeline::planned_inputs(plan)) inputs.add(file.string()); // a baseline ...
-    for (const auto& file : record.absent) inputs.add(folder_of_absent(file).string());
     const std::string text =
         depfile_text(target.empty() ? targets_of(record, depfile).front() : target, inputs.all());
     io::write_now(depfile, std::as_bytes(std::span(text)));
-    if (!record.absent.empty()) make_newer_than_folders(record, kept_before);
 }
 
 } // namespace facetmill::cli

@@ -19,11 +19,10 @@ void require_spellable(const std::string& target, const pipeline::Plan& plan);
 /// Writes the rule of a run; the record's paths must be valid from the working directory. The target is the
 /// given one, because Ninja needs a single target. If empty, it is the first written mesh, otherwise the
 /// first output, the first report, or the depfile itself. The rule depends on the pipeline's file, if given,
-/// and on all inputs. An input may name a missing file. The rule then depends on the folder of that file, so
-/// it runs again when the file appears, and not before. For this, outputs and reports become newer than such
-/// a folder. With kept_before, those older than that time keep their times (--restat).
+/// and on all inputs. Missing
+/// files that an input names are not listed: Ninja would run the rule each time, and their folder would run
+/// it for every new file there.
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
-                   const pipeline::Plan& plan, const report::RunRecord& record,
-                   std::optional<std::filesystem::file_time_type> kept_before = {});
+                   const pipeline::Plan& plan, const report::RunRecord& record);
 
 } // namespace facetmill::cli

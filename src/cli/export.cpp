@@ -85,8 +85,9 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
     const auto own = settings_for(work.asset, of_all);
     Job job{work.asset.name, {arguments_of(options, own)}, pipeline_as_input(options), {}, work.memory};
     for (const auto& input : work.inputs) {
-        std::error_code unknown; // a missing .mtl or image is no error of a run, but of a rule of Ninja
-        if (std::filesystem::exists(input, unknown) || unknown) job.inputs.push_back(input.string());
+        std::error_code unknown; // a missing .mtl or image stops no run, but would stop Ninja and Make
+        const bool exists = std::filesystem::exists(input, unknown) || unknown;
+        (exists ? job.inputs : job.absent).push_back(input.string());
     }
     for (const auto& output : work.outputs) job.outputs.push_back(output.string());
     return job;

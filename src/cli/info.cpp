@@ -52,6 +52,7 @@ struct InfoOptions {
 struct FileInfo {
     Scene scene;
     Properties properties;
+    Box drawn;                                 ///< the box of what viewers draw
     std::vector<report::Component> components; ///< the largest components
     FaceKinds kinds;
 
@@ -147,6 +148,10 @@ std::string point_text(const Vec3& p) {
     return fmt::format("[{},{},{}]", number_text(p.x), number_text(p.y), number_text(p.z));
 }
 
+std::string box_text(const Box& box) {
+    return box.empty() ? "-" : point_text(box.min) + " to " + point_text(box.max);
+}
+
 /// Without faces (point clouds, lines), closedness and similar properties need no line, nor do zeros except
 /// the number of faces.
 bool applies(const Property& property, const Properties& properties) {
@@ -160,7 +165,9 @@ std::string as_text(const std::string& name, const FileInfo& info) {
     std::string text = name + "\n";
     for (const Property* p : report::told_properties(info.properties))
         if (applies(*p, info.properties)) text += row(p->name, value_text(*p, info.properties));
-    text += row("bounds", bounds.empty() ? "-" : point_text(bounds.min) + " to " + point_text(bounds.max));
+    text += row("bounds", box_text(bounds));
+    if (info.drawn.min != bounds.min || info.drawn.max != bounds.max)
+        text += row("drawn_bounds", box_text(info.drawn));
     text += row("unit", to_string(info.scene.unit));
     text += row("up", to_string(info.scene.up));
     text += list_text("attributes", attribute_texts(info.scene));
@@ -174,6 +181,7 @@ std::string as_text(const std::string& name, const FileInfo& info) {
 Json json_of(const std::string& mesh, const FileInfo& info) {
     Json json = {{"file", mesh}};
     json.update(report::scene_json(info.scene, info.properties));
+    json["drawn_bounds"] = report::box_json(info.drawn);
     json["components_detail"] = report::list_json(info.components, report::component_fields());
     json["components_omitted"] = info.omitted();
     json["face_kinds"] = face_kinds_fields().json(&info.kinds);
@@ -220,6 +228,7 @@ FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Cons
     if (!options.picture.empty()) pictures.push_back(info_picture(mesh, info.scene, console));
     steps.next();
     info.properties = inspect(info.scene, {options.self_intersections});
+    info.drawn = io::posed_bounds(info.scene);
     steps.next();
     info.components = report::largest_components(info.scene, info.properties, max_components);
     info.kinds = face_kinds(info.scene);

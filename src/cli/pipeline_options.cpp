@@ -470,7 +470,6 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
                 for (const auto& line : pipeline::explained(trace, plan, pipeline_file, *store))
                     console.say(line);
         };
-    const auto started = fs::file_time_type::clock::now();
     auto record = located(pipeline::run_plan(plan, settings), plan.places);
     if (written) *written = newly_written(record);
     if (store) pipeline::remember(trace, plan, pipeline_file, record.exit_code == 0, *store);
@@ -488,8 +487,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         io::write_now(plan.places.output(timings_of(options)), std::as_bytes(std::span(text)));
     }
     if (record.exit_code == 0 && !options.depfile.empty())
-        write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
-                      options.restat ? std::optional(started) : std::nullopt);
+        write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record);
     for (auto& stage : record.stages) destroy(stage.result); // large for scenes of many parts
     return record.exit_code;
 }

@@ -122,7 +122,7 @@ void check_jobs(const std::vector<Job>& jobs, CommandOf command) {
 /// Refuses names with characters that the engine cannot represent: reports all such inputs, or else all such
 /// outputs.
 void check_names(const std::vector<Job>& jobs, const char* engine, std::string_view odd, const char* hint) {
-    for (const auto paths : {&Job::inputs, &Job::outputs}) {
+    for (const auto paths : {&Job::inputs, &Job::absent, &Job::outputs}) {
         Problems problems;
         OrderedSet<std::string> refused;
         for (const auto& job : jobs)
@@ -152,6 +152,7 @@ std::uint64_t megabytes_of(const Job& job) {
 
 std::string make_target(const std::string& path) { return make_escaped(path, true); }
 std::string make_input(const std::string& path) { return make_escaped(path, false); }
+std::string make_absent(const std::string& path) { return "$(wildcard " + make_input(path) + ")"; }
 
 /// Names in JSON must be UTF-8.
 std::string as_json(const Json& all) {
@@ -175,10 +176,12 @@ std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
         }
         Job &shard = shards.back(), &job = jobs[i];
         shard.runs.push_back(std::move(job.runs.front()));
-        OrderedSet<std::string> inputs;
-        for (const auto* paths : {&shard.inputs, &job.inputs})
-            for (const auto& path : *paths) inputs.add(path);
-        shard.inputs = inputs.all();
+        for (const auto paths : {&Job::inputs, &Job::absent}) {
+            OrderedSet<std::string> both;
+            for (const Job* from : {&shard, &job})
+                for (const auto& path : from->*paths) both.add(path);
+            shard.*paths = both.all();
+        }
         shard.outputs.insert(shard.outputs.end(), job.outputs.begin(), job.outputs.end());
         shard.memory = std::max(shard.memory, job.memory);
     }
@@ -249,10 +252,11 @@ std::string make_workflow(const std::vector<Job>& jobs, const Resources& resourc
         const std::string outputs = joined(job.outputs, make_target);
         all += " \\\n " + joined(job.outputs, make_input);
         // "&:" groups targets into a single rule: GNU make 4.3.
-        rules += fmt::format("\n# {}, about {} MB\n{} &:{}\n\t{}\n",
-                             counted(static_cast<std::size_t>(resources.threads), "thread"),
-                             megabytes_of(job), outputs.substr(1), joined(job.inputs, make_input),
-                             make_command(job, "$(FACETMILL)", with_dollars_doubled));
+        rules +=
+            fmt::format("\n# {}, about {} MB\n{} &:{}\n\t{}\n",
+                        counted(static_cast<std::size_t>(resources.threads), "thread"), megabytes_of(job),
+                        outputs.substr(1), joined(job.inputs, make_input) + joined(job.absent, make_absent),
+                        make_command(job, "$(FACETMILL)", with_dollars_doubled));
     }
     const Lanes lanes = lanes_of(jobs, resources);
     const std::size_t most = lanes.large > 0 ? lanes.large : lanes.small;
@@ -274,10 +278,13 @@ std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& re
                        {"asset", job.name},
                        {"runs", command_lines(job)},
                        {"inputs", job.inputs},
+                       {"absent", job.absent},
                        {"outputs", job.outputs},
                        {"megabytes", megabytes_of(job)}});
     }
-    return heading() + fmt::format(R"(FACETMILL = config.get("facetmill", "facetmill")
+    return heading() + fmt::format(R"(import os
+
+FACETMILL = config.get("facetmill", "facetmill")
 JOBS = {}
 
 
@@ -288,7 +295,7 @@ rule all:
 for job in JOBS:
     rule:
         name: job["name"]
-        input: job["inputs"]
+        input: job["inputs"] + [path for path in job["absent"] if os.path.exists(path)]
         output: job["outputs"]
         message: "Processing " + job["asset"].replace("{{", "{{{{").replace("}}", "}}}}")
         params: command=lambda wildcards, job=job: "s=0;" + "".join(f" {{FACETMILL}}{{run}} || s=$?;" for run in job["runs"]) + " exit $s"

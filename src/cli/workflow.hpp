@@ -13,6 +13,9 @@ struct Job {
     std::vector<std::vector<std::string>> runs; ///< the arguments of consecutive runs of facetmill
     std::vector<std::string> inputs, outputs;   ///< files; at least one output per run
     std::uint64_t memory = 0;                   ///< an estimate, in bytes
+    /// Missing files that inputs name. The job runs again when they appear, except in Ninja, which has no
+    /// optional inputs.
+    std::vector<std::string> absent{};
 };
 
 /// Groups up to `size` jobs into a job, in order. A failing run does not stop the other runs of its group.

@@ -4,6 +4,7 @@
 #include "base/ordered_set.hpp"
 #include "base/text/words.hpp"
 #include "io/attributes.hpp"
+#include "io/metadata.hpp"
 #include "mesh/primitives_in_use.hpp"
 
 #include <algorithm>
@@ -78,6 +79,7 @@ void leave_documents(Written& written, const Scene& scene, const char* format,
                 if (name.is_string() && !kept.contains(name.get<std::string>()))
                     leave(name.get<std::string>());
     }
+    warn_of_lost(written, scene, format, kept);
     std::vector<std::string> left_out;
     if (animations > 0) left_out.push_back(counted(animations, "animation"));
     if (skins > 0) left_out.push_back(counted(skins, "skin"));

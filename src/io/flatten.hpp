@@ -34,8 +34,8 @@ void require_floats(const Mesh& mesh, const std::string& what);
 void dropped(Written& written, const Attribute& attribute, std::string why);
 
 /// Records the losses of glTF documents: textures and other properties of materials, cameras, extensions,
-/// skins and animations (W-ANIMATION for the last two). `format` is spelled as in "STL"; kept: the items
-/// that the format holds.
+/// skins and animations (W-ANIMATION for the last two), metadata and extras (W-LOST). `format` is spelled as
+/// in "STL"; kept: the items that the format holds.
 void leave_documents(Written& written, const Scene& scene, const char* format,
                      const std::set<std::string>& kept = {});
 

@@ -64,6 +64,12 @@ const RegisterMessages io_messages{
      "kind, or broken. Broken means a wrong header or truncated data. A broken image is written unchanged.",
      "Put the image in the folder of the file as PNG or JPEG, and export a broken one again. To read "
      "`../wood.png`, allow a common folder with `--asset-root DIR` or `load: {path: ..., asset_root: DIR}`."},
+    {"W-LOST",
+     "The format cannot store metadata (title, licence, comments), cameras, lights, contents of extensions, "
+     "or "
+     "extras, such as part numbers of 3MF.",
+     "Write glTF (.glb) to keep them. PLY, OBJ and OFF keep metadata as comments. Ignore this warning if you "
+     "need only the mesh."},
     {"W-MATERIAL",
      "The format cannot store the material of points or lines, or it has no materials and cannot store their "
      "colours.",

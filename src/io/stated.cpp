@@ -75,6 +75,12 @@ void take_comment(std::string_view comment, Stated& stated) {
     }
 }
 
+bool states(std::string_view comment) {
+    Stated s;
+    take_comment(comment, s);
+    return s.unit != Unit::unknown || s.up != UpAxis::unknown || !s.no_unit.empty() || !s.no_up.empty();
+}
+
 Stated stated_in_lines(std::string_view text, std::string_view keyword) {
     Stated stated;
     while (!text.empty()) {

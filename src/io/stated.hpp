@@ -24,6 +24,9 @@ struct Stated : Convention {
 /// Takes the unit or axis that a comment states. The last statement is used; other comments are ignored.
 void take_comment(std::string_view comment, Stated& stated);
 
+/// Whether a comment states a unit or an axis, possibly an unknown one.
+[[nodiscard]] bool states(std::string_view comment);
+
 /// The statements of the comments (#) at the start of a text, up to its first other line. If that line ends
 /// with `keyword` (ignoring a comment), the comments after it count too.
 [[nodiscard]] Stated stated_in_lines(std::string_view text, std::string_view keyword = {});

@@ -68,6 +68,10 @@ Json info_schema() {
     Json out = {{"$schema", schema_dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
     scene["properties"]["file"] = typed("string", "The path of the file, as given.");
+    Json drawn = box_schema();
+    drawn["description"] = "The box of what viewers draw: skinned and morphed parts in their default pose, "
+                           "animated nodes at their largest scale, without hidden parts and levels.";
+    scene["properties"]["drawn_bounds"] = std::move(drawn);
     scene["properties"]["components_detail"] =
         list_of(component_fields().schema(), "The components with the most faces, largest first.");
     scene["properties"]["components_omitted"] =

@@ -54,7 +54,10 @@ class Builds(Case):
         picture = texture.read_bytes()
         texture.unlink()
         self.check_due("no texture: ", *command, warned=True)
+        self.write("src/unrelated.txt", "")
+        self.assertEqual(self.build(*command), 0, "another file in the folder: " + self.said)
         texture.write_bytes(picture)
+        self.touch("t.gltf")
         self.check_due("the texture appeared: ", *command, warned=False)
         for name in ("t.gltf", "t.bin", "tex.png", "p.yaml"):
             self.touch(name)
@@ -63,8 +66,8 @@ class Builds(Case):
         self.assertEqual(self.build(*command), 1, self.said)
         if forgets:
             self.assertEqual(self.build(*command), 0, "the texture is gone: " + self.said)
-        time.sleep(0.02)
         texture.write_bytes(picture)
+        self.touch("t.gltf")
         self.check_due("the texture is back: ", *command, warned=False)
 
     def check_due(self, why, *command, warned):
@@ -127,8 +130,14 @@ class Builds(Case):
         self.write("src/m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
         self.write("out/Makefile", "o.glb:\n\t" + self.mill_line.replace("t.gltf", "m.obj") + "\n-include o.d\n")
         self.assertEqual([self.build("make", "o.glb") for _ in range(2)], [1, 0])
-        time.sleep(0.02)
+        depfile = (self.dir / "out/o.d").read_text().split()
+        self.assertEqual(sorted(n.rstrip(":") for n in depfile[1:] if n != "\\"), ["../src/m.obj"] * 2 + ["../src/p.yaml"] * 2)
         self.write("src/m.mtl", "newmtl red\nKd 1 0 0\n")
+        self.assertEqual(self.build("make", "o.glb"), 0)
+        self.touch("m.obj")
+        self.assertEqual([self.build("make", "o.glb") for _ in range(2)], [1, 0])
+        time.sleep(0.02)
+        self.write("src/m.mtl", "newmtl red\nKd 0 1 0\n")
         self.assertEqual([self.build("make", "o.glb") for _ in range(2)], [1, 0])
 
     def test_a_missing_buffer_fails_until_it_is_there(self):

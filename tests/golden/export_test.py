@@ -78,6 +78,23 @@ class Export(Case):
         self.export("snakemake", "Snakefile")
         self.check(("snakemake", "-j2"), "Nothing to be done")
 
+    def test_a_missing_library_of_materials_stops_no_build(self):
+        self.write("in/m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
+        for engine, name, command in (("make", "Makefile", ("make",)), ("ninja", "build.ninja", ("ninja",))):
+            self.need(engine)
+            (self.dir / "in/m.mtl").unlink(missing_ok=True)
+            self.write(name, self.mill("export", "--to", engine, "p q.yaml", "--input", "in/m.obj", "-o", engine).stdout)
+            written = self.dir / engine / "m.ply"
+            times = []
+            for change in ("", "in/other.txt", "in/m.mtl"):
+                time.sleep(0.02)
+                if change:
+                    self.write(change, "newmtl red\nKd 1 0 0\n")
+                self.build(*command)
+                times.append(written.stat().st_mtime_ns)
+            self.assertEqual(times[0], times[1], engine)
+            self.assertEqual(times[2] != times[1], engine == "make")  # Ninja has no optional inputs
+
     def test_shards(self):
         for engine, name, command, nothing in (("ninja", "build.ninja", ("ninja",), "no work to do"),
                                                ("make", "Makefile", ("make", "-j2"), "Nothing to be done"),

@@ -50,6 +50,14 @@ def moebius(n=12):
     return points, faces
 
 
+def dumbbell():
+    """Two boxes and a neck."""
+    outline = [(0, 0), (4, 0), (4, 1.5), (6, 1.5), (6, 0), (10, 0), (10, 4), (6, 4), (6, 2.5), (4, 2.5), (4, 4), (0, 4)]
+    n = len(outline)
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return off(([(x, y, z) for z in (0, 4) for x, y in outline], [list(range(n))[::-1], list(range(n, 2 * n)), *sides]))
+
+
 def ply(points, faces=(), kind="float"):
     head = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n" + "".join(f"property {kind} {c}\n" for c in "xyz")
     if faces:
@@ -157,6 +165,7 @@ FILES = {
     "flipped-open.off": off((box()[0], [box()[1][0][::-1], *box(faces=5)[1][1:]])),
     "nested.off": off(box((-3, -3, -3), (6, 6, 6)), box((-1, -1, -1), (2, 2, 2))),
     "crossing.off": off(box(), box((.5, .5, .5))),
+    "dumbbell.off": dumbbell(), "commented.ply": ply(*box()).replace("element", "comment Scanned by Ann\nelement", 1),
     "nomtl.obj": "mtllib none.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
     "no-image.gltf": gltf(materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
                           textures=[{"source": 0}], images=[{"uri": "none.png"}]),
@@ -356,6 +365,9 @@ FOLLOWED = [
     ("W-SPLIT-STOPPED", "pipe load wavy.off ! split --max_edge .2 --passes 1 ! write o.ply", "more passes",
      "pipe load wavy.off ! split --max_edge .2 --passes 20 ! write o.ply"),
     ("W-THICKEN", "pipe load wavy.off ! thicken 5 ! write o.ply", "smaller thickness", "pipe load wavy.off ! thicken .1 ! write o.ply"),
+    ("W-THICKEN-TOPOLOGY", "pipe load dumbbell.off ! triangulate ! thicken .6 --self_intersections resolve", "smaller thickness",
+     "pipe load dumbbell.off ! triangulate ! thicken .2 --self_intersections resolve ! write o.ply"),
+    ("W-LOST", "pipe load commented.ply ! write o.stl", "write .glb", "pipe load commented.ply ! write o.glb"),
     ("W-THICKEN-THIN", "pipe load wavy.off ! thicken 5 ! write o.ply", "smaller thickness", "pipe load wavy.off ! thicken .1 ! write o.ply"),
     ("W-THICKEN-OPEN", "pipe load flipped.off ! thicken .1 ! write o.ply", "orient first", "pipe load flipped.off ! orient ! thicken .1 ! write o.ply"),
     ("W-UNITS", "pipe load part.off ! write o.glb", "load ... --unit mm --up z", "pipe load part.off --unit mm --up z ! write o.glb"),

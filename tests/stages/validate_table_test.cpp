@@ -149,6 +149,7 @@ std::vector<Row> counts() {
             {"genus: 0", scene_of(torus(8, 6)), scene_of(cube()), false},
             {"area: {max: 5}", scene_of(cube()), scene_of(small), false},
             {"volume: {max: 0.5}", scene_of(cube()), scene_of(small), false},
+            {"solid_volume: {max: 0.5}", scene_of(cube()), scene_of(small), false},
             {"bounds: {max: [2, 0.5, 2]}", scene_of(cube()), scene_of(small), false},
             {"max_extent: {max: 0.5}", scene_of(cube()), scene_of(small), false},
             {"materials: {max: 1}", with_materials(2), with_materials(1), false},

@@ -25,6 +25,8 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 /// minimum over two triangles is at a corner of the polygon where they overlap, so it is exact up to
 /// rounding. A ray from the centroid counts at any angle.
 [[nodiscard]] std::vector<double> wall_thicknesses(const Mesh& mesh);
+/// The least of wall_thicknesses, found faster because each face is searched only below the least so far.
+[[nodiscard]] std::optional<double> thinnest_wall(const Measured& mesh);
 
 // In face_pairs.cpp:
 /// Neighbours folded onto each other; the lower face first, ascending. Exact.

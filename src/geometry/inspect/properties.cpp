@@ -1,6 +1,7 @@
 // The table of properties. To add a property, add a row here (with its function, here or in
 // geometry/inspect/measures.hpp), and a row in tests/stages/validate_table_test.cpp.
 #include "geometry/inspect/measures.hpp"
+#include "geometry/measure/measure.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -22,6 +23,13 @@ std::optional<double> is_outward_oriented(const Measured& m) {
 }
 
 std::optional<double> max_extent(const Measured& m) { return m.world.bounds().longest_side(); }
+
+std::optional<double> solid_volume(const Measured& m) {
+    const auto sum = m.properties.volume;
+    const auto shells = sum ? overlapping_shells(m.world, *sum) : std::nullopt;
+    if (!shells) return sum;
+    return shells->solid ? std::optional(shells->solid->volume) : std::nullopt;
+}
 
 double boundary_length(const Mesh& mesh) {
     double sum = 0;
@@ -230,7 +238,9 @@ constexpr Property table[] = {
     {.name = "volume",
      .kind = Kind::volume,
      .join = Join::sum_if_all,
-     .help = "The enclosed volume. Negative if the surface is inside out. Does not apply to open surfaces.",
+     .help = "The sum of the signed volumes of closed shells: negative if the surface is inside out. Space "
+             "inside several outward shells counts several times (see solid_volume). Does not apply to open "
+             "surfaces.",
      .hint = "use clean: {holes: minimal} to close open surfaces, or orient to turn them outward",
      .mend = "clean --holes minimal ! orient",
      .member = &P::volume,
@@ -241,7 +251,8 @@ constexpr Property table[] = {
      .also_called = "bbox bounding_box aabb extents",
      .kind = Kind::box,
      .join = Join::around,
-     .help = "The bounding box. Its lowest corner is at least {min: [x, y, z]}, its highest corner at most "
+     .help = "The bounding box of all vertices, with skinned parts in their bind pose and animated nodes at "
+             "rest. Its lowest corner is at least {min: [x, y, z]}, its highest corner at most "
              "{max: [x, y, z]}.",
      .hint = cuts_to_size,
      .member = &P::bounds,
@@ -278,6 +289,17 @@ constexpr Property table[] = {
      .evidence = by_part_names},
 
     // The following properties are measured on request.
+    {.name = "solid_volume",
+     .kind = Kind::volume,
+     .join = Join::sum_if_all,
+     .help = "The volume of the solid: like volume, but space inside several shells of a part counts once. "
+             "Shells inside others count as cavities, and crossing shells are united. Takes time.",
+     .hint = "use clean: {holes: minimal} to close open surfaces, or orient to turn them outward",
+     .mend = "clean --holes minimal ! orient",
+     .measure = solid_volume,
+     .locations = uncancelled_edges,
+     .evidence = by_boundary,
+     .lowest = -HUGE_VAL},
     {.name = "min_angle",
      .kind = Kind::angle,
      .join = Join::least,
@@ -388,6 +410,7 @@ constexpr Property table[] = {
              "and from their centroids to any surface. It is 0 at edges and tips sharper than 45 degrees; "
              "blunter edges are corners.",
      .hint = "no stage thickens the walls of a solid, but transform can scale all of it",
+     .measure = thinnest_wall,
      .of_faces = wall_thicknesses,
      .counts_locations = true},
     {.name = "uvs_in_range",
@@ -413,7 +436,7 @@ constexpr Property table[] = {
     {.name = "finite_attributes",
      .kind = Kind::truth,
      .join = Join::all,
-     .help = "use triangulate to make faces planar",
+     .help = "All numbers of attributes are finite.",
      .hint = "use measure: {missing: 0} to replace missing values, or optimize: {drop_own: true} to remove "
              "attributes unknown to glTF; write stores 0 instead of nan in glTF (W-NAN)",
      .measure = has_finite_attributes,

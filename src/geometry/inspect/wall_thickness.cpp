@@ -4,11 +4,13 @@
 #include "geometry/spatial/rays_walk.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/face.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 #include "parallel/parallel.hpp"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <tuple>
 
 namespace facetmill::inspect_room {
@@ -24,33 +26,35 @@ double meets_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, cons
     return facing > 0 ? std::clamp(dot(n, a - p) / facing, least, most) : least;
 }
 
-/// [faces] from the centre of each along its inward normal to where the ray leaves the solid, at any angle.
-std::vector<double> from_centres(const Mesh& mesh, const Surface& surface) {
-    const FaceTree tree(surface, FaceTree::Use::rays);
-    std::vector<double> ways(mesh.face_count(), HUGE_VAL);
-    parallel_for(
-        ways.size(),
-        [&](std::size_t f) {
-            const auto face = static_cast<Index>(f);
-            const Vec3 d = -normalised(area_vector(mesh, face)), p = corner_mean(mesh, face);
-            if (!(dot(d, d) > 0) || !is_finite(p)) return;
-            const Line line{p, p + d, true};
-            // Exact, so that a ray does not slip through between two faces at an edge.
-            const rays::LineSigns signs(line.from, line.to);
-            rays::LineWalk walk(tree, line);
-            while (walk.step([&](Index t) {
-                if (tree.face(t) == face) return ways[f];
-                const auto [a, b, c] = tree.triangle(t);
-                if (signs.passes(a, b, c) != 1) return ways[f]; // it does not leave through the front
-                const double at = meets_at(p, d, a, b, c);
-                if (at >= 0) ways[f] = std::min(ways[f], at);
-                return ways[f];
-            })) {
-            }
-        },
-        256);
-    return ways;
-}
+/// Rays from the centres of faces along their inward normals.
+class CentreRays {
+  public:
+    CentreRays(const Mesh& mesh, const Surface& surface) : mesh_(mesh), tree_(surface, FaceTree::Use::rays) {}
+
+    /// The distance to where the ray leaves the solid, at any angle, if it is less than `most`.
+    double distance(Index face, double most) const {
+        const Vec3 d = -normalised(area_vector(mesh_, face)), p = corner_mean(mesh_, face);
+        if (!(dot(d, d) > 0) || !is_finite(p)) return most;
+        const Line line{p, p + d, true};
+        // Exact, so that a ray does not slip through between two faces at an edge.
+        const rays::LineSigns signs(line.from, line.to);
+        rays::LineWalk walk(tree_, line, most);
+        while (walk.step([&](Index t) {
+            if (tree_.face(t) == face) return most;
+            const auto [a, b, c] = tree_.triangle(t);
+            if (signs.passes(a, b, c) != 1) return most; // it does not leave through the front
+            const double at = meets_at(p, d, a, b, c);
+            if (at >= 0) most = std::min(most, at);
+            return most;
+        })) {
+        }
+        return most;
+    }
+
+  private:
+    const Mesh& mesh_;
+    FaceTree tree_;
+};
 
 constexpr double half_right_angle = 0.70710678118654752; // its sine and cosine
 
@@ -272,7 +276,10 @@ class Walls {
 
 std::vector<double> wall_thicknesses(const Mesh& mesh) {
     const Surface surface = filled_surface(mesh);
-    std::vector<double> ways = from_centres(mesh, surface);
+    std::vector<double> ways(mesh.face_count());
+    const CentreRays rays(mesh, surface);
+    parallel_for(
+        ways.size(), [&](std::size_t f) { ways[f] = rays.distance(static_cast<Index>(f), HUGE_VAL); }, 256);
     const Walls walls(surface);
     std::vector<double> of_triangle(surface.size());
     parallel_for(
@@ -282,6 +289,46 @@ std::vector<double> wall_thicknesses(const Mesh& mesh) {
     for (std::size_t t = 0; t < of_triangle.size(); ++t)
         ways[surface.face(t)] = std::min(ways[surface.face(t)], of_triangle[t]);
     return ways;
+}
+
+namespace {
+
+/// The least value so far, which all threads share as the bound of their searches. The last one does not
+/// depend on their order.
+class SharedLeast {
+  public:
+    double get() const { return least_.load(std::memory_order_relaxed); }
+    void offer(double x) {
+        double old = get();
+        while (x < old && !least_.compare_exchange_weak(old, x, std::memory_order_relaxed)) {
+        }
+    }
+
+  private:
+    std::atomic<double> least_ = HUGE_VAL;
+};
+
+double least_thickness(const Mesh& mesh) {
+    const Surface surface = filled_surface(mesh);
+    SharedLeast least;
+    const CentreRays rays(mesh, surface);
+    parallel_for(
+        mesh.face_count(),
+        [&](std::size_t f) { least.offer(rays.distance(static_cast<Index>(f), least.get())); }, 256);
+    const Walls walls(surface);
+    parallel_for(
+        surface.size(),
+        [&](std::size_t t) { least.offer(walls.thinnest(static_cast<Index>(t), least.get())); }, 256);
+    return least.get();
+}
+
+} // namespace
+
+std::optional<double> thinnest_wall(const Measured& mesh) {
+    const PowerScale scale = even_scale(mesh.world.bounds());
+    const double least = least_thickness(scale.none() ? mesh.world : scale(mesh.world));
+    if (least == HUGE_VAL) return {};
+    return scale.none() ? least : unscaled(least, scale.powers[0]);
 }
 
 } // namespace facetmill::inspect_room

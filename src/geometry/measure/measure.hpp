@@ -79,6 +79,18 @@ struct MassResult {
 /// Its volume counts each point as often as the face winds around it.
 [[nodiscard]] MassResult measure_mass(const Mesh& mesh);
 
+// In shells.cpp:
+/// unites: some shells pass through each other. solid: the inside, in which each point counts once; none if
+/// the shells could not be united to a closed surface.
+struct OverlappingShells {
+    bool unites = false;
+    std::optional<SolidMass> solid;
+};
+/// The solid of a closed mesh with this volume after orient (a shell inside another is its cavity) and, for
+/// shells that pass through each other, after clean: {self_intersections: union}. None if the mesh is inside
+/// out, if no two shells overlap, or if the solid has the given volume up to rounding.
+[[nodiscard]] std::optional<OverlappingShells> overlapping_shells(const Mesh& mesh, double volume);
+
 /// Angles in radians.
 struct EdgeResult {
     Statistics length; ///< lengths of all edges

@@ -162,9 +162,11 @@ class LineQuery {
 /// The triangles whose boxes a line meets, roughly from near to far, one node at a time.
 class LineWalk {
   public:
-    LineWalk(const FaceTree& tree, const Line& line) : tree_(tree), query_(tree, line) {
+    /// t_max: the t up to which the search goes at first.
+    LineWalk(const FaceTree& tree, const Line& line, double t_max = HUGE_VAL)
+        : tree_(tree), query_(tree, line) {
         if (tree.empty() || query_.misses()) return;
-        end_ = query_.length();
+        end_ = t_max < HUGE_VAL ? std::min(query_.length(), query_.length_to(t_max)) : query_.length();
         stack_[size_++] = {0, tree.height() - 1, 0};
     }
 

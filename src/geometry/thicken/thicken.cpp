@@ -369,6 +369,24 @@ std::size_t components_of(const Mesh& mesh, const std::vector<std::uint8_t>& fla
     return static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
 }
 
+std::int64_t euler_number(const Mesh& mesh) {
+    const Connectivity c = connectivity_of(mesh);
+    return static_cast<std::int64_t>(mesh.vertex_count()) - c.isolated_vertices - c.edges +
+           static_cast<std::int64_t>(mesh.face_count());
+}
+
+/// Compares the sides of a rebuilt solid with its surface. No side may vanish.
+std::optional<ThickenResult::Topology> changed_topology(const Mesh& surface, const ResolvedSolid& solid) {
+    const std::int64_t wanted = euler_number(surface);
+    for (const bool back : {false, true}) {
+        std::vector<std::uint8_t> others(solid.is_back);
+        for (auto& other : others) other = other != static_cast<std::uint8_t>(back);
+        const std::int64_t found = euler_number(keep_faces(solid.mesh, faces_without(others)));
+        if (found != wanted) return ThickenResult::Topology{wanted, found};
+    }
+    return {};
+}
+
 /// Rebuilds the solid without its folds.
 void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, ThickenResult& r) {
     const auto faces_of = [](const std::vector<std::uint8_t>& is_back) {
@@ -380,6 +398,7 @@ void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, T
     ResolvedSolid solid = r.wall_faces > 0 ? united_solid(d.mesh, to_world, moves.out + moves.in)
                                            : resolved_solid(moves, to_world);
     if (solid.failed) return;
+    if (r.wall_faces == 0 && r.filled == 0) r.changed_topology = changed_topology(moves.surface, solid);
     r.changes = changes_in_sequence(r.changes, std::move(solid.changes));
     d.mesh = std::move(solid.mesh);
     if (r.wall_faces == 0) r.wall = measure(d.mesh, to_world, faces_of(solid.is_back));

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace facetmill {
 
@@ -48,6 +49,12 @@ struct ThickenResult {
     /// With `resolve`: whether the solid was rebuilt. If so, turned and buried are 0. If rebuilding fails,
     /// the solid is the same as without `resolve`.
     bool resolved = false;
+    /// The Euler numbers of a closed surface and of a side of the rebuilt solid. A thin wall has sides like
+    /// its surface; others lost or gained holes, handles or pieces where walls met.
+    struct Topology {
+        std::int64_t surface = 0, side = 0;
+    };
+    std::optional<Topology> changed_topology; ///< empty if both sides are like the surface
 };
 
 /// Makes a solid of the surface. The front is the surface, moved outward by the thickness or half of it if

@@ -406,8 +406,24 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
 void keep_asset(Json& asset, const Json& other) {
     const auto from = other.find("asset");
     if (from == other.end() || !from->is_object()) return;
-    for (const char* member : {"copyright", "extras"})
-        if (from->contains(member) && !asset.contains(member)) asset[member] = (*from)[member];
+    if (from->contains("copyright") && !asset.contains("copyright")) asset["copyright"] = (*from)["copyright"];
+    const Json extras = from->value("extras", Json::object());
+    if (!asset.contains("extras") && !extras.empty()) asset["extras"] = extras;
+    if (asset.contains("extras") && asset["extras"].is_object() && extras.is_object())
+        for (const auto& [name, value] : extras.items()) // those of the first document stay
+            if (!asset["extras"].contains(name)) asset["extras"][name] = value;
+}
+
+/// Whether the copyright or extras of another document's asset differ from those that are written.
+bool has_other_metadata(const Json& asset, const Json& other) {
+    const Json from = other.value("asset", Json::object());
+    if (from.contains("copyright") && from["copyright"] != asset["copyright"]) return true;
+    if (!from.contains("extras") || from["extras"] == asset["extras"]) return false;
+    if (!from["extras"].is_object()) return true;
+    const auto items = from["extras"].items();
+    return std::any_of(items.begin(), items.end(), [&](const auto& item) {
+        return !asset["extras"].contains(item.key()) || asset["extras"][item.key()] != item.value();
+    });
 }
 
 /// Warns that only the meshes and materials of another document are written.
@@ -415,6 +431,7 @@ void warn_of_losses(Patch& patch, const std::string& name, const Json& other) {
     std::vector<std::string> lost;
     for (const char* list : {"animations", "skins", "cameras", "extensions"})
         if (other.contains(list) && !other[list].empty()) lost.push_back(list);
+    if (has_other_metadata(patch.builder.json()["asset"], other)) lost.emplace_back("metadata");
     if (!lost.empty())
         patch.warn("W-MERGED",
                    fmt::format("only the meshes and materials of '{}' are written, without its {}", name,

@@ -1,6 +1,7 @@
 #include "base/ordered_set.hpp"
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
+#include "io/metadata.hpp"
 #include "io/obj/scene_library.hpp"
 #include "io/stated.hpp"
 
@@ -273,7 +274,7 @@ void tell_what_is_lost(const Mesh& mesh, Written& written) {
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Bytes bytes;
-    append(bytes, "# written by facetmill\n" + stated_comments(scene, "# "));
+    append(bytes, "# written by facetmill\n" + stated_comments(scene, "# ") + metadata_comments(scene, "# "));
     SceneLibrary library(scene, settings);
     if (const auto name = library.file_name()) append(bytes, fmt::format("mtllib {}\n", *name));
     Offsets offsets;
@@ -309,7 +310,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         tell_what_is_lost(part.mesh, written);
         parts.next();
     }
-    leave_documents(written, scene, "OBJ", kept_by_library());
+    std::set<std::string> kept = kept_by_library();
+    kept.insert("metadata");
+    leave_documents(written, scene, "OBJ", kept);
     warn_of_point_materials(written, scene, "OBJ", false);
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
     warn_of_lost_attributes(scene, written);

@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
+#include "io/metadata.hpp"
 #include "io/stated.hpp"
 
 #include <fmt/format.h>
@@ -96,7 +97,8 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Bytes bytes;
     append(bytes, fmt::format("{}{}OFF\n{}{} {} 0\n", colour ? "C" : "", normal ? "N" : "",
-                              stated_comments(scene, "# "), rows.count(), world->face_count()));
+                              stated_comments(scene, "# ") + metadata_comments(scene, "# "), rows.count(),
+                              world->face_count()));
     ProgressSteps steps({2, 3});
     put_rows(bytes, rows, colour, normal, settings.double_positions);
     steps.next();
@@ -121,7 +123,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
              fmt::format("{} vertices became {}: OFF has one colour at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
-    leave_documents(written, scene, "OFF");
+    leave_documents(written, scene, "OFF", {"metadata"});
     warn_of_dropped(written, scene, "OFF", false);
     warn_of_parts(written, scene, "OFF");
     warn_of_textures(written, scene, "OFF");

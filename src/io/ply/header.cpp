@@ -1,3 +1,5 @@
+#include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
 #include "io/ply/ply.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
@@ -93,6 +95,17 @@ AttributeData array_of(Type type) {
     return std::vector<std::int32_t>{};
 }
 
+/// Takes a comment that is no texture: a statement of facetmill, or text to keep. Names of programs do not
+/// hold for another file.
+void take_comment_of(Header& header, std::string_view comment) {
+    take_comment(comment, header.stated);
+    if (states(comment)) return;
+    const std::string text = lower_case(std::string(comment));
+    for (const char* of_program : {"generated", "written by", "created by", "exported", "made by"})
+        if (text.find(of_program) != text.npos) return;
+    if (!trimmed(comment).empty()) header.comments.emplace_back(trimmed(comment));
+}
+
 Header read_header(const Input& input) {
     Text text(as_text(input.bytes()), input.name(), "E-PLY");
     Header header;
@@ -119,8 +132,10 @@ Header read_header(const Input& input) {
             if (ahead.word_on_line() == "TextureFile")
                 header.textures.emplace_back(ahead.rest_of_line());
             else
-                take_comment(text.rest_of_line(), header.stated);
-        } else if (word != "obj_info" && !word.empty()) {
+                take_comment_of(header, text.rest_of_line());
+        } else if (word == "obj_info") {
+            header.comments.push_back(fmt::format("obj_info {}", trimmed(text.rest_of_line())));
+        } else if (!word.empty()) {
             text.fail(
                 fmt::format("expected element, property, comment or end_header, found {}", in_quotes(word)));
         }

@@ -38,6 +38,8 @@ struct Header {
     std::int64_t lines = 0;            ///< the number of header lines
     std::vector<std::string> textures; ///< file names from 'TextureFile' comments of some programs
     Stated stated{};                   ///< the unit and up axis that comments state
+    /// Other comments, without those that name the program that wrote the file, and lines of obj_info.
+    std::vector<std::string> comments{};
 };
 
 /// Reads the header; throws a malformed-input error (E-PLY) with the line.

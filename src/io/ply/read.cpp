@@ -1,6 +1,7 @@
 #include "base/progress.hpp"
 #include "io/attributes.hpp"
 #include "io/material_document.hpp"
+#include "io/metadata.hpp"
 #include "io/ply/ply.hpp"
 #include "io/ply/table.hpp"
 #include "io/ply/textures.hpp"
@@ -37,7 +38,7 @@ class Builder {
     std::size_t index_column();
     void add_strips();
     void add_corner_uvs();
-    void add_textures(Scene& scene, const Header& header);
+    void add_textures(Scene& scene, const Header& header, MaterialDocument& document);
     std::vector<Index> texture_of_faces(std::size_t textures);
     void warn_of_splats();
     void report_lists(const Table& table);
@@ -227,7 +228,7 @@ std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
 
 /// Makes materials from the images that comments name, and a primitive for each image that faces use. Images
 /// need texture coordinates.
-void Builder::add_textures(Scene& scene, const Header& header) {
+void Builder::add_textures(Scene& scene, const Header& header, MaterialDocument& document) {
     if (header.textures.empty()) return;
     const std::vector<Index> numbers = texture_of_faces(header.textures.size());
     if (!mesh_.find("TEXCOORD_0", Domain::wedge)) {
@@ -239,7 +240,6 @@ void Builder::add_textures(Scene& scene, const Header& header) {
              "export it with texture coordinates: s and t of vertices, or texcoord of faces"});
         return;
     }
-    MaterialDocument document(input_.name());
     std::vector<Index> primitive_of(header.textures.size() + 1, none), of_face;
     for (const Index number : numbers) {
         Index& primitive = primitive_of[number];
@@ -257,7 +257,6 @@ void Builder::add_textures(Scene& scene, const Header& header) {
     if (mesh_.primitives.size() > 1)
         mesh_.attributes.push_back(
             {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
-    if (!document.empty()) scene.documents.push_back(document.finish());
 }
 
 /// Splats are points with the shape of an ellipsoid. No stage turns or scales that shape.
@@ -319,7 +318,10 @@ Scene Builder::read() {
     add_strips();
     Scene scene;
     take_stated(scene, header.stated, input_.name(), settings_, log_);
-    add_textures(scene, header);
+    MaterialDocument document(input_.name());
+    add_textures(scene, header, document);
+    if (!header.comments.empty()) document.asset()["extras"][comments_key] = header.comments;
+    if (!document.empty()) scene.documents.push_back(document.finish());
     if (faces_.count() > 0) {
         add_colours(faces_, mesh_, Domain::face);
         add_others(faces_, mesh_, Domain::face);

@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "io/flatten.hpp"
+#include "io/metadata.hpp"
 #include "io/stated.hpp"
 #include "parallel/parallel.hpp"
 
@@ -181,12 +182,22 @@ void add_attributes(Layout& l, const std::vector<Index>& first, Written& written
     }
 }
 
+/// The metadata as comments. Comments that were obj_info lines become such lines again.
+std::string comments_of(const Scene& scene) {
+    constexpr std::string_view comment = "comment ", of_info = "\ncomment obj_info ";
+    std::string text = "\n" + metadata_comments(scene, comment);
+    for (auto at = text.find(of_info); at != text.npos; at = text.find(of_info, at))
+        text.erase(at + 1, comment.size());
+    return text.substr(1);
+}
+
 std::string header_of(const Layout& l, const Scene& scene) {
     const char* encoding = l.settings.ascii        ? "ascii"
                            : l.settings.big_endian ? "binary_big_endian"
                                                    : "binary_little_endian";
-    std::string text = fmt::format("ply\nformat {} 1.0\ncomment written by facetmill\n{}element vertex {}\n",
-                                   encoding, stated_comments(scene, "comment "), l.rows());
+    std::string text =
+        fmt::format("ply\nformat {} 1.0\ncomment written by facetmill\n{}element vertex {}\n", encoding,
+                    stated_comments(scene, "comment ") + comments_of(scene), l.rows());
     for (const auto& c : l.vertex) text += fmt::format("property {} {}\n", name_of(c.type()), c.name);
     text += fmt::format("element face {}\nproperty list {} int vertex_indices\n", l.mesh.face_count(),
                         name_of(l.count_type));
@@ -355,7 +366,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
              fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
-    leave_documents(written, scene, "PLY");
+    leave_documents(written, scene, "PLY", {"metadata"});
     warn_of_dropped(written, scene, "PLY");
     if (!settings.ascii) note_polygons(written, smallest, largest);
     warn_of_parts(written, scene, "PLY");

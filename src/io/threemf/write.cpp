@@ -7,6 +7,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
+#include "io/metadata.hpp"
 #include "io/threemf/model.hpp"
 #include "io/threemf/zip.hpp"
 #include "mesh/equal_meshes.hpp"
@@ -170,21 +171,17 @@ class ModelWriter {
         written_.warnings.push_back({Severity::warning, id, std::move(message), {}, ""});
     }
 
-    /// The copyright and the extras of the documents' assets that 3MF has names for. The first document with
-    /// a name counts.
+    static bool is_kept_metadata(std::string_view name, const Json& value) {
+        return value.is_string() && std::find(std::begin(metadata_names), std::end(metadata_names), name) !=
+                                        std::end(metadata_names);
+    }
+
+    /// The copyright and the metadata that 3MF has names for.
     std::string metadata() const {
-        std::map<std::string_view, std::string> found;
-        for (const auto& document : scene_.documents) {
-            const Json json = parse_json(document->json, Broken::discarded);
-            const auto asset = json.is_object() ? json.find("asset") : json.end();
-            if (asset == json.end() || !asset->is_object()) continue;
-            const Json extras = asset->value("extras", Json::object());
-            for (const std::string_view name : metadata_names) {
-                const std::string key = name == "Copyright" ? "copyright" : std::string(name);
-                const Json& from = name == "Copyright" ? *asset : extras;
-                if (from.is_object() && from.contains(key) && from[key].is_string())
-                    found.try_emplace(name, from[key].get<std::string>());
-            }
+        std::map<std::string, std::string> found;
+        for (const auto& [name, value] : metadata_of(scene_)) {
+            const std::string own = name == "copyright" ? "Copyright" : name;
+            if (is_kept_metadata(own, value)) found.emplace(own, value.get<std::string>());
         }
         std::string text;
         for (const auto& [name, value] : found)
@@ -358,7 +355,10 @@ class ModelWriter {
         if (written_.dropped_faces > 0)
             warn("W-FACES", fmt::format("{} with the same vertex twice not written, since 3MF forbids them",
                                         counted(written_.dropped_faces, "face")));
-        leave_documents(written_, scene_, "3MF");
+        std::set<std::string> kept{"copyright", part_number_key};
+        for (const auto& [name, value] : metadata_of(scene_))
+            if (is_kept_metadata(name, value)) kept.insert(name);
+        leave_documents(written_, scene_, "3MF", kept);
         warn_of_textures(written_, scene_, "3MF");
         warn_of_looks(written_, scene_, "3MF");
     }

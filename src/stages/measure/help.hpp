@@ -35,6 +35,8 @@ The result solid describes the inside of a closed surface, filled with the densi
 It contains volume, mass, centroid, inertia about the centroid, ascending principal moments with
 their axes, and radii of gyration.
 It is null for open surfaces.
+If shells lie within each other and face outward, the inner ones count as cavities, as after orient.
+Shells that pass through each other count as their union (W-SHELLS).
 The total is null if any part is open.
 
 The turn of an edge is the angle between the normals of its two faces.

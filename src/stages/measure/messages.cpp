@@ -5,11 +5,11 @@ namespace facetmill {
 const RegisterMessages measure_messages{
     {"W-SHELLS",
      "Closed shells of a part lie within each other and all face outward, or they pass through each other. "
-     "Their "
-     "volumes are added, so some space counts several times.",
+     "The sum of their volumes, which the property volume gives, counts some space several times. The "
+     "results "
+     "of measure for the solid, and the property solid_volume, count it once.",
      "Use `orient` first to make inner shells cavities, or `clean: {self_intersections: union}` to unite "
-     "shells that "
-     "pass through each other."},
+     "shells that pass through each other."},
 };
 
 } // namespace facetmill

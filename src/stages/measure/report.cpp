@@ -6,7 +6,6 @@
 #include "geometry/measure/statistics_fields.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
-#include "stages/measure/shells.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -75,7 +74,8 @@ void declare_shell(DeclareFields<ShellMass>& d) {
 }
 
 void declare_solid(DeclareFields<MeasuredSolid>& d) {
-    d.field("volume", &MeasuredSolid::volume, "The volume. Negative if the surface is inside out.")
+    d.field("volume", &MeasuredSolid::volume,
+            "The volume. Negative if the surface is inside out. Space in several shells counts once.")
         .unit("cubic scene units");
     d.field("mass", &MeasuredSolid::mass, "The volume times the density.");
     d.field("centroid", &MeasuredSolid::centroid, "The centroid of the volume.").null_when(unknown);
@@ -156,7 +156,7 @@ void declare_attribute(DeclareFields<KeptAttribute>& d) {
     d.object("values", &KeptAttribute::values, "Statistics of the other values.", statistics_fields(""));
 }
 
-constexpr const char* open = "the surface is open";
+constexpr const char* open = "the surface is open, or its shells overlap and could not be united";
 
 void declare_part(DeclareFields<MeasuredPart>& d) {
     d.field("part", &MeasuredPart::part, "The name of the part.");
@@ -245,18 +245,20 @@ void warn_of_inside_out(const std::string& part, const MassResult& mass, Context
                      "use orient to turn it outward");
 }
 
-void warn_of_shells(const std::string& part, const Mesh& mesh, const MassResult& mass, Context& context) {
-    if (!mass.solid || !(mass.solid->volume > 0)) return;
-    const auto solid = volume_of_overlapping_shells(mesh, mass.solid->volume);
-    if (!solid) return;
-    context.warn(
-        "W-SHELLS",
-        fmt::format("closed shells of part '{}' {} each other: its volume, {}, counts space several times; "
-                    "the solid has {}",
-                    part, solid->unites ? "pass through" : "lie within", readable(mass.solid->volume),
-                    readable(solid->volume)),
-        solid->unites ? "use orient, then clean: {self_intersections: union}, to unite them"
-                      : "use orient to turn inner shells inward, as cavities");
+void correct_for_shells(const std::string& part, const Mesh& mesh, MassResult& mass, Context& context) {
+    if (!mass.solid) return;
+    const double sum = mass.solid->volume;
+    const auto shells = overlapping_shells(mesh, sum);
+    if (!shells) return;
+    mass.solid = shells->solid;
+    const std::string result = mass.solid ? "the solid has " + readable(mass.solid->volume)
+                                          : std::string("they could not be united, so no solid is reported");
+    context.warn("W-SHELLS",
+                 fmt::format("closed shells of part '{}' {} each other: the sum of their volumes, {}, counts "
+                             "space several times; {}",
+                             part, shells->unites ? "pass through" : "lie within", readable(sum), result),
+                 shells->unites ? "use orient, then clean: {self_intersections: union}, to unite them"
+                                : "use orient to turn inner shells inward, as cavities");
 }
 
 void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,

@@ -51,8 +51,8 @@ struct MeasureReport {
 void declare_measure_report(DeclareFields<MeasureReport>& d);
 
 void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context);
-/// Warns (W-SHELLS) of closed shells whose volumes count space twice, with the right volume.
-void warn_of_shells(const std::string& part, const Mesh& mesh, const MassResult& mass, Context& context);
+/// If closed shells count space twice, replaces their solid by the right one, and warns (W-SHELLS).
+void correct_for_shells(const std::string& part, const Mesh& mesh, MassResult& mass, Context& context);
 /// Writes the files that the options name. table: the rows for files that list faces.
 void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
                    Context& context);

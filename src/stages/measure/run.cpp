@@ -27,14 +27,14 @@ std::optional<MeasuredSolid> measured(const std::optional<SolidMass>& solid, dou
 
 void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures& all, Context& context) {
     const Mesh mesh = in_world(part);
-    const MassResult mass = measure_mass(mesh);
+    MassResult mass = measure_mass(mesh);
+    correct_for_shells(part.name, mesh, mass, context);
     FaceResult faces = measure_faces(mesh);
     EdgesAndCurvature turns = measure_edges_and_curvature(mesh, {.feature_angle = o.feature_angle.radians});
     all.shell = joined(all.shell, mass.shell);
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
     if (list_faces) all.csv += face_table_rows(part.name, mesh);
     warn_of_inside_out(part.name, mass, context);
-    warn_of_shells(part.name, mesh, mass, context);
     faces.areas.clear();
     turns.curvature.gaussian.clear();
     turns.curvature.mean.clear();

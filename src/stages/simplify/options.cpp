@@ -40,7 +40,10 @@ void declare_lock(Declare<LockOptions>& d) {
     d.option("seams", &LockOptions::seams, "Keeps the vertices of seams and of borders between materials.");
     d.option("group", &LockOptions::group,
              "Keeps the vertices of borders between the groups of an OBJ file.");
-    d.group("box", &LockOptions::box, "Keeps the vertices in this box, in world space.", declare_box);
+    d.group("box", &LockOptions::box,
+            "Keeps the vertices in this box, in world space. Parts with animated nodes are placed at their "
+            "largest scale, skinned parts in their bind pose.",
+            declare_box);
     const Json words = {{"enum", {"boundary", "seams", "group"}}};
     d.shorthand(ShortForm::list, "boundary, seams or group, or a list of them",
                 {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);

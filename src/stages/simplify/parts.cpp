@@ -21,9 +21,8 @@ bool is_of_part(const Length& length) {
 /// The scene with every part at the largest scale that an animation gives it.
 class LargestPose {
   public:
-    /// on: false keeps all parts at rest.
-    LargestPose(Scene& scene, bool on) : scene_(scene) {
-        const auto views = on ? io::part_views(scene) : std::vector<io::PartView>();
+    explicit LargestPose(Scene& scene) : scene_(scene) {
+        const auto views = io::part_views(scene);
         rest_.reserve(scene.parts.size());
         for (const Part& part : scene.parts) rest_.push_back(part.transform);
         largest_ = rest_;
@@ -126,8 +125,7 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
 }
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
-    // An error is seen at its largest. A box to lock is a place in the pose at rest.
-    const LargestPose pose(scene, !o.lock.box);
+    const LargestPose pose(scene); // an error is seen at its largest
     const SimplifyPartsSettings settings = settings_in(scene, pose, o, context);
     const MeshCounts all = count_selected(scene, settings.selected);
     const bool has_target = o.lods || o.ratio || o.faces || o.vertices;

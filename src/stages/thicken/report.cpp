@@ -143,6 +143,13 @@ void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor&
                         part.name),
             way_out +
                 "use a smaller thickness, or separate the components and thicken each of them (separate)");
+    if (r.changed_topology)
+        context.warn(
+            "W-THICKEN-TOPOLOGY",
+            fmt::format("thicken: a side of the wall of part '{}' has the Euler number {}, but its "
+                        "surface has {}: holes, handles or pieces appeared or vanished where walls meet",
+                        part.name, r.changed_topology->side, r.changed_topology->surface),
+            "look at the cavity with section, and use a smaller thickness if it is not as expected");
     if (o.looks() && !r.self_intersections)
         context.warn("W-THICKEN",
                      fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g} {}, so "

@@ -13,6 +13,8 @@ All operations work in world space.
 They change the nodes of the parts, not the meshes, unless bake is on.
 Mirrored faces keep their front side, as glTF requires.
 The ground is at 0 along the up axis, or along +Z if the up axis is unknown.
+The bounding box of the parts is the box of what viewers draw: skinned and morphed parts in their default
+pose, animated nodes at their largest scale, without hidden parts and lower levels of detail.
 A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.
 Cameras, lights, empty nodes and animations of a glTF file move with its parts, if all of its parts move.)";
 

@@ -1,5 +1,6 @@
 #include "cells/process/inspect_cells.hpp"
 #include "io/gltf/gltf.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 #include "stages/transform/help.hpp"
@@ -107,11 +108,10 @@ class Mover {
 
     Box box() const {
         if (box_) return box_(scene_.parts.front().transform);
-        Box all;
-        for (const Part& part : scene_.parts)
-            if (context_.selects(part, scene_))
-                for (const Vec3& p : part.mesh.positions) all.add(in_world(part, p));
-        return all;
+        std::vector<bool> selected;
+        selected.reserve(scene_.parts.size());
+        for (const Part& part : scene_.parts) selected.push_back(context_.selects(part, scene_));
+        return selected.empty() ? Box{} : io::posed_bounds(scene_, std::move(selected));
     }
 
     void move(const Transform& t) {

@@ -7,6 +7,7 @@
 #include "mesh/shapes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace facetmill;
 
@@ -87,4 +88,15 @@ TEST_CASE("wall_thickness of plates, cones and hollow balls", "[geometry]") {
     for (std::size_t c = 0; c < ball.corners.size(); c += 3) std::swap(ball.corners[c], ball.corners[c + 1]);
     append(hollow, ball);
     CHECK(thinnest(hollow) == Approx(0.125 * inradius).epsilon(0.01));
+}
+
+TEST_CASE("the least wall thickness is the least of all faces", "[geometry]") {
+    const Property& property = *property_named("wall_thickness");
+    Mesh bumpy = shapes::icosphere(4);
+    for (Vec3& p : bumpy.positions) p = p * (1 + 0.1 * std::fmod(std::abs(p.x * 37 + p.y * 17), 1.0));
+    for (const Mesh& mesh : {bumpy, shapes::torus(40, 20), shapes::cube(), shapes::octahedron()}) {
+        const std::vector<double> all = face_values(mesh, property);
+        CHECK(measure(mesh, property) == *std::min_element(all.begin(), all.end())); // bit for bit
+    }
+    CHECK_FALSE(measure(shapes::grid(3, 3), property));
 }

@@ -7,6 +7,7 @@
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/thicken/thicken.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
@@ -191,4 +192,34 @@ TEST_CASE("thicken does not count touching faces as intersections", "[geometry]"
     const ThickenResult r = thicken(cubes, {.thickness = 0.1, .resolve = true});
     CHECK_FALSE(r.resolved);
     check_sound(r, 8, 2 * (1 - 0.8 * 0.8 * 0.8));
+}
+
+TEST_CASE("thicken names a cavity of another topology than its surface", "[geometry]") {
+    Mesh dumbbell; // two boxes and a neck, as an outline that is swept along z
+    const double outline[][2] = {{0, 0},  {4, 0}, {4, 1.5}, {6, 1.5}, {6, 0}, {10, 0},
+                                 {10, 4}, {6, 4}, {6, 2.5}, {4, 2.5}, {4, 4}, {0, 4}};
+    const Index n = 12;
+    for (const double z : {0.0, 4.0})
+        for (const auto& [x, y] : outline) dumbbell.positions.push_back({x, y, z});
+    dumbbell.face_offsets = {0};
+    const auto end_face = [&] {
+        dumbbell.face_offsets.push_back(static_cast<Index>(dumbbell.corners.size()));
+    };
+    for (Index i = n; i-- > 0;) dumbbell.corners.push_back(i);
+    end_face();
+    for (Index i = 0; i < n; ++i) dumbbell.corners.push_back(n + i);
+    end_face();
+    for (Index i = 0; i < n; ++i) {
+        const Index j = (i + 1) % n;
+        dumbbell.corners.insert(dumbbell.corners.end(), {i, j, n + j, n + i});
+        end_face();
+    }
+    dumbbell = triangles_of(dumbbell);
+    CHECK_FALSE(thicken(dumbbell, {.thickness = 0.2, .resolve = true}).changed_topology);
+    const ThickenResult r = thicken(dumbbell, {.thickness = 0.6, .resolve = true}); // no room in the neck
+    REQUIRE(r.resolved);
+    REQUIRE(r.changed_topology);
+    CHECK(r.changed_topology->surface == 2);
+    CHECK(r.changed_topology->side == 4);
+    check_sound(r, 6, 136 - 2 * 2.8 * 2.8 * 2.8);
 }

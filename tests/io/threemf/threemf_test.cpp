@@ -260,7 +260,7 @@ TEST_CASE("properties of 3MF triangles come from the triangle, else from the obj
     CHECK(m.vertex_count() == 3);
 }
 
-TEST_CASE("objects of a 3MF that are no models are left out and named", "[io]") {
+TEST_CASE("objects of a 3MF that are not models are left out and named", "[io]") {
     const auto object = [](int id, const char* type) {
         return fmt::format("<object id=\"{}\" type=\"{}\">{}</object>", id, type, one_triangle);
     };

@@ -1,6 +1,7 @@
 #include "io/gltf/read/skinned_pose.hpp"
 
 #include "io/gltf/document/nodes.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/read/skins.hpp"
 #include "mesh/transform.hpp"
 #include "parallel/parallel.hpp"
@@ -201,6 +202,30 @@ std::optional<Scene> posed(const Scene& scene) {
         }
     }
     return any ? std::optional(std::move(out)) : std::nullopt;
+}
+
+Box posed_bounds(const Scene& scene, std::vector<bool> chosen) {
+    const auto pose = posed(scene);
+    const Scene& seen = pose ? *pose : scene;
+    std::vector<PartView> views(seen.parts.size());
+    try {
+        views = part_views(seen);
+    } catch (const Error&) { // a document whose animations are invalid: viewers cannot play them
+        for (std::size_t i = 0; i < views.size(); ++i) views[i].largest = seen.parts[i].transform;
+    }
+    chosen.resize(views.size(), chosen.empty());
+    bool any = false, any_drawn = false;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        chosen[i] = chosen[i] && seen.parts[i].mesh.vertex_count() > 0;
+        any |= chosen[i];
+        any_drawn |= chosen[i] && views[i].is_drawn();
+    }
+    if (!any) return {};
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        views[i].hidden = !chosen[i] || (any_drawn && views[i].hidden);
+        views[i].lower_level = any_drawn && views[i].lower_level;
+    }
+    return drawn_bounds(seen, views);
 }
 
 } // namespace facetmill::io

@@ -1,5 +1,6 @@
 // What viewers draw decides how parts are sized, merged and baked.
 #include "io/gltf/gltf.hpp"
+#include "io/gltf/read/skinned_pose.hpp"
 #include "mesh/drawn_box.hpp"
 #include "mesh/shapes.hpp"
 #include "support/bench.hpp"
@@ -52,6 +53,21 @@ TEST_CASE("the largest pose is that of the largest key", "[io]") {
     Scene moved = scene;
     moved.parts[0].transform.m[1][3] += 5;
     CHECK(io::part_views(moved)[0].largest.point({1, 0, 0}).y == Approx(5));
+}
+
+TEST_CASE("transform fits and centres what viewers draw", "[stages]") {
+    const Scene scene = viewed_document(
+        R"([{"scale":[0.01,0.01,0.01],"children":[1]},{"mesh":0,"translation":[2,0,0]},{"mesh":0}])",
+        R"([{"nodes":[0,2]}])", growing_node);
+    CHECK(io::posed_bounds(scene).max == Vec3{3, 1, 0});
+    CHECK(io::posed_bounds(scene, {false, true}).max == Vec3{1, 1, 0});
+    CHECK(io::posed_bounds(scene, {true, false}).min == Vec3{2, 0, 0});
+    CHECK(run_stage("transform", "{fit: 6}", scene).record.result["fit_factor"] == 2);
+    const Box centred = io::posed_bounds(run_stage("transform", "{centre: true}", scene).scene);
+    CHECK(centred.min.x == Approx(-1.5));
+    CHECK(centred.max.x == Approx(1.5));
+    const Scene hidden = viewed_document(R"([{"mesh":0},{"mesh":0,"scale":[9,9,9]}])", R"([{"nodes":[0]}])");
+    CHECK(run_stage("transform", "{fit: 6}", hidden).record.result["fit_factor"] == 6);
 }
 
 TEST_CASE("digits below a node that growing_node stay", "[io]") {

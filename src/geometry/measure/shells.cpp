@@ -1,17 +1,17 @@
-#include "stages/measure/shells.hpp"
+#include "geometry/measure/measure.hpp"
 
 #include "geometry/clean/clean.hpp"
 #include "geometry/intersect/self_intersections.hpp"
-#include "geometry/measure/measure.hpp"
 #include "geometry/orient/orient.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/face.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace facetmill::measure_stage {
+namespace facetmill {
 
 namespace {
 
@@ -37,22 +37,21 @@ bool pass_through(const Mesh& mesh, const Components& components) {
 
 } // namespace
 
-std::optional<SolidVolume> volume_of_overlapping_shells(const Mesh& mesh, double volume) {
+std::optional<OverlappingShells> overlapping_shells(const Mesh& mesh, double volume) {
+    if (!(volume > 0)) return {};
     const Components components = face_components(mesh, false);
     if (components.count < 2 || !any_overlap(mesh, components)) return {};
-    SolidVolume solid;
-    solid.unites = pass_through(mesh, components);
+    OverlappingShells shells{pass_through(mesh, components), {}};
     Mesh sound = orient(bare(mesh), {}).mesh;
-    if (solid.unites) {
+    if (shells.unites) {
         CleanSettings settings;
         settings.self_intersections = Untangle::unite;
         sound = clean(std::move(sound), settings).mesh;
     }
-    const auto mass = measure_mass(sound).solid;
+    shells.solid = measure_mass(sound).solid;
     constexpr double rounding = 1e-9; // of sums over millions of faces, and of new vertices of the union
-    if (!mass || std::abs(mass->volume - volume) <= rounding * std::abs(volume)) return {};
-    solid.volume = mass->volume;
-    return solid;
+    if (shells.solid && std::abs(shells.solid->volume - volume) <= rounding * std::abs(volume)) return {};
+    return shells;
 }
 
-} // namespace facetmill::measure_stage
+} // namespace facetmill
