@@ -26,8 +26,9 @@ function packaged(system) {
 }
 
 function missing(system) {
+  const published = `facetmill-${system}` in require('./package.json').optionalDependencies;
   const other = systems.find(packaged), built = 'or set FACETMILL to a program that you have built';
-  if (!systems.includes(system)) return `facetmill has no program for ${system} yet: use Linux, a container or WSL, ${built}`;
+  if (!published) return `facetmill has no program for ${system} yet: use Linux on x64, also in a container or WSL, ${built}`;
   if (other) return `facetmill-${other} is installed, and this machine needs facetmill-${system}: ` +
       'run npm install here, in place of a copied node_modules';
   return `facetmill has no program for ${system} here: install the package facetmill-${system} ` +
