@@ -199,7 +199,7 @@ FOLLOWED = [
     ("E-COMBINE", "pipe load '{open,drill}.off' ! combine --operation difference --with drill ! write o.ply",
      "clean --holes minimal",
      "pipe load '{open,drill}.off' ! clean --holes minimal ! combine --operation difference --with drill ! write o.ply"),
-    ("E-COMMAND", "convert part.off o.ply", "facetmill pipe load IN ! write OUT", "pipe load part.off ! write o.ply"),
+    ("E-COMMAND", "part.off o.ply", "facetmill convert IN OUT", "convert part.off o.ply"),
     ("E-COMMAND", "repair part.off", "facetmill run repair -D input=FILE", "run repair -D input=part.off"),
     ("E-CONFLICT", "pipe load part.off ! clean --tolerance 1 ! write o.ply", "--weld near",
      "pipe load part.off ! clean --tolerance .1 --weld near ! write o.ply"),
