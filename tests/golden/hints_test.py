@@ -135,7 +135,7 @@ TERRAIN = grid(16, lambda x, y: 0.5 + math.sin(x * math.pi / 4) * math.sin(y * m
 FILES = {
     "part.off": off(box()), "open.off": off(box(faces=5)), "two.off": off(box(), box((3, 0, 0))),
     "inside.off": off(box(inward=True)), "drill.off": off(box((.25, .25, -1), (.5, .5, 3))),
-    "far.off": off(box((9, 9, 9))), "over.off": off(box((.5, .5, .5))), "big.off": off(box((-1, -1, -1), (3, 3, 3))),
+    "far.off": off(box((9, 9, 9))), "ten.off": off(box(size=(10, 10, 10))), "over.off": off(box((.5, .5, .5))), "big.off": off(box((-1, -1, -1), (3, 3, 3))),
     "terrain.off": off(TERRAIN), "moebius.off": off(moebius()),
     "wavy.off": off(grid(8, lambda x, y: math.sin(x) + math.cos(1.7 * y))),
     "tri.off": off(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])),
@@ -294,6 +294,7 @@ FOLLOWED = [
      "pipe load '{part,far}.off' ! transform --only far --translate -9.5,-9.5,-9.5 ! combine --operation difference --with far ! write o.ply"),
     ("W-COMBINE-NOTHING", "pipe load '{part,far}.off' ! combine --operation intersection --with far", "overlap",
      "pipe load '{part,over}.off' ! combine --operation intersection --with over ! write o.ply"),
+    ("W-CONVENTION", "render part.off ten.off -o p.png", "use --unit cm,mm", "render part.off ten.off -o p.png --unit cm,mm"),
     ("W-CROP-ALL", "pipe load part.off ! crop 'POLYGON ((-9 -9, 9 -9, 9 9, -9 9))' ! write o.ply", "info prints the bounds",
      "pipe load part.off ! crop 'POLYGON ((-9 -9, .5 -9, .5 9, -9 9))' ! write o.ply"),
     ("W-CROP-NOTHING", "pipe load part.off ! crop 'POLYGON ((7 7, 9 7, 9 9))'", "info prints the bounds",
