@@ -115,7 +115,7 @@ std::optional<Stamp> stamp_of(const fs::path& file) {
 
 fs::path Journal::path_in(const fs::path& folder, const std::string& name) {
     std::error_code ignored;
-    const bool is_file = name != "-" && fs::exists(name, ignored); // else a ready pipeline
+    const bool is_file = name != "-" && fs::exists(name, ignored); // else a built-in pipeline
     const std::string stem = name == "-" ? "stdin" : fs::path(name).stem().string();
     const std::string place =
         is_file ? fs::relative(fs::canonical(name), fs::weakly_canonical(fs::absolute(folder))).string()

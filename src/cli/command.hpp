@@ -54,6 +54,9 @@ struct Command {
 /// All commands, in the order of --help.
 const std::vector<Command>& commands();
 
+[[nodiscard]] Command convert_command();
+[[nodiscard]] Command view_command();
+[[nodiscard]] Command fix_command();
 [[nodiscard]] Command run_command();
 [[nodiscard]] Command batch_command();
 [[nodiscard]] Command export_command();

@@ -7,6 +7,7 @@
 #include "docs/man_markdown.hpp"
 #include "docs/manual.hpp"
 #include "docs/messages.hpp"
+#include "docs/ready.hpp"
 #include "docs/stages.hpp"
 #include "stage/stage.hpp"
 
@@ -64,6 +65,8 @@ std::string topics_with(const std::string& word) {
 }
 
 std::string names_near(const std::string& word) {
+    if (docs::ready_pipeline(word))
+        return fmt::format("facetmill new --from {} lists what this pipeline does, and its params", word);
     std::vector<std::string> names;
     for (const Topic& topic : topics()) names.push_back(topic.name);
     for (const auto& m : message_ids()) names.emplace_back(m.id);

@@ -17,6 +17,9 @@ of threads and an estimate of the memory. Snakemake uses threads and memory for 
 that parallel jobs fit into the cores of this machine and into --memory. Make supports neither, so the Makefile
 recommends a suitable -j.
 
+Each job also depends on the executable. For Make and Ninja, a depfile in .facetmill-depfiles adds the files that the
+run read (for Ninja not with --shard, nor for names with ' " & or the like).
+
 The assets of a shard run one after the other. If one fails, the others still run, and the job fails with the exit
 code of the last failure. Snakemake then removes all outputs of the job. Make and Ninja keep them and run the
 whole shard again. Paths are relative to the working directory, so run the workflow there. The outputs are byte
@@ -90,6 +93,7 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
         (exists ? job.inputs : job.absent).push_back(input.string());
     }
     for (const auto& output : work.outputs) job.outputs.push_back(output.string());
+    if (!job.outputs.empty()) job.targets = {job.outputs.front()};
     return job;
 }
 
@@ -155,7 +159,10 @@ void check_cells(const ExportOptions& options, const CommandLine& line, Problems
 }
 
 std::string workflow_of(const ExportOptions& options, const std::vector<Job>& jobs, std::uint64_t memory) {
-    const Resources resources{options.common.threads, default_threads(), batch::memory_for_jobs(memory)};
+    std::error_code unknown;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown).string();
+    const Resources resources{options.common.threads, default_threads(), batch::memory_for_jobs(memory),
+                              unknown ? "facetmill" : program};
     return options.engine == "ninja"  ? ninja_workflow(jobs, resources)
            : options.engine == "make" ? make_workflow(jobs, resources)
                                       : snakemake_workflow(jobs, resources);

@@ -26,8 +26,8 @@ namespace {
 
 constexpr const char* info_examples =
     R"(Property names are the same as in validate, ensure, when and reports. A property that does not apply (the volume
-of an open mesh) is null. With several files, --json prints a list. It leaves out files that cannot be read, and the
-exit code is the most severe one.
+of an open mesh) is null. With several files, --json prints a list with an entry for each file. Its error is null, or says why the file cannot be
+read; its other keys are then missing. The exit code is the most severe one.
 
 Examples
   facetmill info scan.ply
@@ -179,13 +179,21 @@ std::string as_text(const std::string& name, const FileInfo& info) {
 }
 
 Json json_of(const std::string& mesh, const FileInfo& info) {
-    Json json = {{"file", mesh}};
+    Json json = {{"file", mesh}, {"error", nullptr}};
     json.update(report::scene_json(info.scene, info.properties));
     json["drawn_bounds"] = report::box_json(info.drawn);
     json["components_detail"] = report::list_json(info.components, report::component_fields());
     json["components_omitted"] = info.omitted();
     json["face_kinds"] = face_kinds_fields().json(&info.kinds);
     return json;
+}
+
+/// The entry of a file that cannot be read.
+Json json_of(const std::string& mesh, const Error& error) {
+    const Diagnostic& first = error.diagnostics().front();
+    return {{"file", mesh},
+            {"error",
+             {{"id", first.id}, {"message", first.message}, {"exit_code", static_cast<int>(error.kind())}}}};
 }
 
 /// Writes a larger version of the report's picture; several files appear side by side.
@@ -259,8 +267,9 @@ int info(const InfoOptions& options, const Console& console) {
             else
                 text += as_text(mesh, info);
         } catch (const Error& e) { // the other files are still shown
-            if (options.meshes.size() == 1) throw;
+            if (options.meshes.size() == 1 && !options.json) throw;
             console.diagnostics(e);
+            if (options.json) all.push_back(json_of(mesh, e));
             code = batch::worse_exit_code(code, static_cast<int>(e.kind()));
         }
     }

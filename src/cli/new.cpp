@@ -4,6 +4,7 @@
 #include "cli/command.hpp"
 #include "docs/ready.hpp"
 #include "io/outputs/outputs.hpp"
+#include "pipeline/document.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -12,10 +13,15 @@ namespace facetmill::cli {
 
 namespace {
 
-constexpr const char* new_examples = R"(Examples
+constexpr const char* new_examples =
+    R"(Without FILE, it lists the built-in pipelines with their params, or those of one with --from.
+
+Examples
+  facetmill new
+  facetmill new --from web
   facetmill new scan.yaml
   facetmill run scan.yaml -D input=scan.ply --output-dir out
-  facetmill new web.yaml --from scan-to-web
+  facetmill new web.yaml --from web
 )";
 
 constexpr const char* starter =
@@ -52,9 +58,39 @@ struct NewOptions {
     std::string file, from;
 };
 
-std::string text_of(const NewOptions& options, const CommandLine& line) {
-    if (options.from.empty()) return starter;
-    if (const auto* ready = docs::ready_pipeline(options.from)) return std::string(ready->text);
+/// A param in one line: "  keep       ratio    10%      The ratio of triangles that remain."
+std::string param_line(const std::string& name, const Value& param) {
+    const auto text = [&](const char* key) {
+        const Value* value = param.find(key);
+        return value && value->is_scalar() ? value->text : std::string();
+    };
+    const std::string type = param.is_scalar() ? param.text : text("type");
+    const Value* choices = param.find("choices");
+    std::string help = text("help");
+    if (choices) {
+        std::vector<std::string> names;
+        for (const Value& choice : choices->items) names.push_back(choice.text);
+        help += fmt::format(" ({})", fmt::join(names, ", "));
+    }
+    const std::string value = param.find("default") ? text("default") : "needed";
+    return fmt::format("  {:<12}  {:<7}  {:<8}  {}\n", name, type, value, help);
+}
+
+/// What a built-in pipeline does, and its params with their types and defaults.
+std::string described(const docs::ReadyPipeline& ready) {
+    Problems none;
+    const Value document = pipeline::parse_yaml(
+        std::make_shared<const SourceText>(SourceText{std::string(ready.name), std::string(ready.text)}),
+        none);
+    const Value* about = document.find("about");
+    std::string text = fmt::format("{}: {}\n", ready.name, about ? about->text : "");
+    if (const Value* params = document.find("params"))
+        for (const auto& param : params->entries) text += param_line(param.key, param.value);
+    return text + fmt::format("  facetmill run {} MESH\n", ready.name);
+}
+
+const docs::ReadyPipeline& ready_named(const NewOptions& options, const CommandLine& line) {
+    if (const auto* ready = docs::ready_pipeline(options.from)) return *ready;
     const auto names = docs::ready_names();
     throw Error(ErrorKind::usage, "E-ARGUMENT",
                 fmt::format("built-in pipeline '{}' does not exist", options.from),
@@ -62,8 +98,20 @@ std::string text_of(const NewOptions& options, const CommandLine& line) {
                 line.value(options.from));
 }
 
+/// The named built-in pipeline, or all.
+std::string list_of(const NewOptions& options, const CommandLine& line) {
+    if (!options.from.empty()) return described(ready_named(options, line));
+    std::string text = "The built-in pipelines. Give params after -D: -D keep=10%.\n";
+    for (const auto& ready : docs::ready_pipelines()) text += "\n" + described(ready);
+    return text;
+}
+
 int write_new(const NewOptions& options, const CommandLine& line, const Console& console) {
-    const std::string text = text_of(options, line);
+    if (options.file.empty()) {
+        show(list_of(options, line));
+        return 0;
+    }
+    const std::string text = options.from.empty() ? starter : std::string(ready_named(options, line).text);
     if (options.file == "-") {
         print(text);
         return 0;
@@ -81,12 +129,12 @@ int write_new(const NewOptions& options, const CommandLine& line, const Console&
 
 Command new_command() {
     return {"new",
-            "Writes a commented pipeline as a starting point.",
+            "Writes a pipeline as a starting point, or lists the ready ones.",
             new_examples,
             {},
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<NewOptions>();
-                arguments.add("FILE", &options->file, "The file to write. - prints it.").required();
+                arguments.add("FILE", &options->file, "The file to write. - prints it.");
                 arguments.add("--from", &options->from, "The built-in pipeline to start from.")
                     .suggests(docs::ready_names);
                 return [=, &console](const Invocation& invocation) {

@@ -3,10 +3,9 @@
 #include "base/text/markup.hpp"
 #include "cli/pipe_syntax.hpp"
 #include "cli/pipeline_options.hpp"
+#include "cli/save_pipeline.hpp"
 #include "docs/stages.hpp"
-#include "io/outputs/outputs.hpp"
 #include "pipeline/document.hpp"
-#include "pipeline/rebase.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -37,25 +36,6 @@ Examples
   facetmill pipe load - + validate --closed < part.stl
   facetmill pipe --save part.yaml load part.stl ! write part.glb       (then: facetmill run part.yaml)
 )";
-
-/// Writes the pipeline as a file that run reproduces. Inputs become relative to the file. Outputs stay
-/// relative to the working directory, as run expects.
-void save(Value document, const std::vector<std::string>& reports, const std::string& target) {
-    const auto here = std::filesystem::current_path();
-    if (target != "-")
-        pipeline::rebase_inputs(document, here, std::filesystem::absolute(target).parent_path(),
-                                pipeline::RunTimePaths::refused);
-    for (const auto& report : reports) {
-        Value& all =
-            document.find("report") ? *document.find("report") : document.set("report", Value::list({}));
-        all.items.push_back(Value::scalar(report));
-    }
-    const std::string text = pipeline::emit_yaml(document);
-    Problems unreadable; // a path need not be UTF-8, but a pipeline must be
-    pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{target, text}), unreadable);
-    unreadable.throw_if_any(ErrorKind::usage);
-    io::write_now(target, std::as_bytes(std::span(text)));
-}
 
 /// Whether a stage's own help is requested: facetmill pipe clip --help.
 bool help_wanted(const Invocation& invocation) {
@@ -91,7 +71,7 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Argum
     auto plan = pipeline::make_plan(document, settings, problems);
     plan.text = pipeline::emit_yaml(document);
     if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
-    if (!save_to.empty()) save(document, options.reports, save_to);
+    if (!save_to.empty()) save_pipeline(document, options.reports, save_to);
     confine_to({plan}, options, console);
     return run_with_messages(plan, options, console, "");
 }

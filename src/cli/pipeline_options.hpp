@@ -54,16 +54,16 @@ void add_run_options(Arguments& arguments, PipelineOptions& options);
 /// several meshes, and for a mesh without a pipeline.
 void take_input(std::vector<std::string>& pipelines, PipelineOptions& options, const CommandLine& line);
 
-/// Whether the text names a file, and not a ready pipeline or standard input. An inaccessible file counts,
+/// Whether the text names a file, and not a built-in pipeline or standard input. An inaccessible file counts,
 /// because opening it reports the reason. A folder, such as the outputs of an earlier run, does not hide a
-/// ready pipeline.
+/// built-in pipeline.
 bool is_pipeline_file(const std::string& pipeline);
 
-/// The text and name of a file, of standard input ("-"), or of a ready pipeline. Throws a missing-file error
-/// if it does not exist.
+/// The text and name of a file, of standard input ("-"), or of a built-in pipeline. Throws a missing-file
+/// error if it does not exist.
 [[nodiscard]] std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);
 
-/// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Adds problems; throws a
+/// The plan of a file, of standard input ("-"), or of a built-in pipeline by name. Adds problems; throws a
 /// missing-file error for a file that cannot be read.
 [[nodiscard]] pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings,
                                      Problems& problems);

@@ -17,10 +17,10 @@ namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        run_command(),    batch_command(),      export_command(),  plan_command(),   pipe_command(),
-        new_command(),    check_command(),      info_command(),    render_command(), diff_command(),
-        stages_command(), schema_command(),     formats_command(), cache_command(),  explain_command(),
-        docs_command(),   completions_command()};
+        convert_command(), view_command(),   fix_command(),     run_command(),    batch_command(),
+        export_command(),  plan_command(),   pipe_command(),    new_command(),    check_command(),
+        info_command(),    render_command(), diff_command(),    stages_command(), schema_command(),
+        formats_command(), cache_command(),  explain_command(), docs_command(),   completions_command()};
     return all;
 }
 
@@ -55,6 +55,9 @@ constexpr const char* help_end = R"(
   --help, --version, --version --json, and help TOPIC, which is short for facetmill docs TOPIC
 
 Examples
+  facetmill convert part.stl part.glb
+  facetmill view part.stl
+  facetmill fix part.stl
   facetmill pipe load scan.ply ! simplify 25% ! write web.glb
   facetmill run pipeline.yaml -D input=scan.ply --output-dir out
   facetmill batch pipeline.yaml --input 'scans/**/*.ply' --output-dir out
@@ -75,13 +78,12 @@ std::string help_text() {
     return text + help_end;
 }
 
-/// A hint for a word that is not a command: a mesh file, a word of other tools, a ready pipeline, or a
+/// A hint for a word that is not a command: a mesh file, a word of other tools, a built-in pipeline, or a
 /// similar command.
 std::string hint_for(const std::vector<std::string>& words, const std::vector<std::string>& names) {
     const std::string& name = words[0];
-    if (name == "convert" || name.find_first_of("./\\") != name.npos)
-        return "use facetmill pipe load IN ! write OUT to convert a mesh file, or facetmill info IN to see "
-               "its properties";
+    if (name.find_first_of("./\\") != name.npos)
+        return "use facetmill convert IN OUT to convert a mesh file, or facetmill view IN to look at it";
     if (docs::ready_pipeline(name))
         return fmt::format("use facetmill run {} -D input=FILE to run a pipeline", name);
     if (const std::string_view chain = chain_called(name); !chain.empty()) return std::string(chain);

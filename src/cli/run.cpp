@@ -15,8 +15,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* run_examples =
-    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a built-in pipeline (quickstart,
-scan-to-web, web, lod-chain, repair). A mesh file after it is the value of its param input.
+    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a built-in pipeline: facetmill new lists them
+with their params. A mesh file after it is the value of its param input.
 
 Examples
   facetmill run scan.yaml

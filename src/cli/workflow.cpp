@@ -1,5 +1,6 @@
 #include "cli/workflow.hpp"
 
+#include "base/hash.hpp"
 #include "base/json.hpp"
 #include "base/ordered_set.hpp"
 #include "base/text/markup.hpp"
@@ -9,6 +10,8 @@
 #include "docs/versions.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -150,6 +153,41 @@ std::uint64_t megabytes_of(const Job& job) {
     return (job.memory + megabyte - 1) / megabyte;
 }
 
+/// The depfile of a target. Its name stays the same when other jobs come or go.
+std::string depfile_of(const std::string& target) {
+    constexpr std::size_t digits = 16;
+    return fmt::format("{}/{}.d", depfile_folder, sha256(std::as_bytes(std::span(target))).substr(0, digits));
+}
+
+/// Lets the runs of a job write depfiles.
+Job with_depfiles(Job job) {
+    for (std::size_t i = 0; i < job.targets.size(); ++i)
+        job.runs[i].insert(job.runs[i].end(),
+                           {"--depfile", depfile_of(job.targets[i]), "--depfile-target", job.targets[i]});
+    return job;
+}
+
+/// Whether Ninja reads the names of this job in a depfile, and has one depfile for it. It splits a name at
+/// other characters.
+bool fits_ninja_depfile(const Job& job) {
+    constexpr std::string_view known = "+,/_:.~()}{%=@[]!-# ";
+    const auto fits = [&](const std::string& path) {
+        return std::all_of(path.begin(), path.end(), [&](char c) {
+            const auto byte = static_cast<unsigned char>(c);
+            return byte >= 0x80 || std::isalnum(byte) || known.find(c) != known.npos;
+        });
+    };
+    return job.targets.size() == 1 && fits(job.targets.front()) &&
+           std::all_of(job.inputs.begin(), job.inputs.end(), fits);
+}
+
+std::vector<Job> transformed(const std::vector<Job>& jobs, Job (*change)(Job)) {
+    std::vector<Job> changed;
+    changed.reserve(jobs.size());
+    for (const Job& job : jobs) changed.push_back(change(job));
+    return changed;
+}
+
 std::string make_target(const std::string& path) { return make_escaped(path, true); }
 std::string make_input(const std::string& path) { return make_escaped(path, false); }
 std::string make_absent(const std::string& path) { return "$(wildcard " + make_input(path) + ")"; }
@@ -183,6 +221,7 @@ std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
             shard.*paths = both.all();
         }
         shard.outputs.insert(shard.outputs.end(), job.outputs.begin(), job.outputs.end());
+        shard.targets.insert(shard.targets.end(), job.targets.begin(), job.targets.end());
         shard.memory = std::max(shard.memory, job.memory);
     }
     for (auto& shard : shards)
@@ -228,23 +267,34 @@ std::string ninja_pools(const Lanes& lanes, const Resources& resources) {
 
 } // namespace
 
-std::string ninja_workflow(const std::vector<Job>& jobs, const Resources& resources) {
+std::string ninja_workflow(const std::vector<Job>& given, const Resources& resources) {
+    const auto jobs = transformed(
+        given, [](Job job) { return fits_ninja_depfile(job) ? with_depfiles(std::move(job)) : job; });
     check_jobs(jobs, plain_command);
     check_names(jobs, "Ninja", "|\t", "rename the file");
     const Lanes lanes = lanes_of(jobs, resources);
-    std::string text = heading() + "facetmill = facetmill\n\n" + ninja_pools(lanes, resources) +
-                       "\nrule mill\n  command = $work\n  description = MILL $asset\n  pool = small\n";
+    std::string text =
+        heading() + fmt::format("# The executable, as a command and as a file.\nfacetmill = {}\n"
+                                "program = {}\n\n",
+                                with_dollars_doubled(for_shell(resources.program)),
+                                with_dollars_doubled(resources.program));
+    text += ninja_pools(lanes, resources) +
+            "\nrule mill\n  command = $work\n  description = MILL $asset\n  pool = small\n";
     for (const auto& job : jobs) {
         const std::string work = plain_command(job, "$facetmill", with_dollars_doubled);
-        text += fmt::format("\nbuild{}: mill{}\n  asset = {}\n  work = {}\n", joined(job.outputs, ninja_path),
-                            joined(job.inputs, ninja_path), with_dollars_doubled(job.name), work);
+        text += fmt::format("\nbuild{}: mill{} | $program\n  asset = {}\n  work = {}\n",
+                            joined(job.outputs, ninja_path), joined(job.inputs, ninja_path),
+                            with_dollars_doubled(job.name), work);
         text += fmt::format("  threads = {}\n  megabytes = {}\n", resources.threads, megabytes_of(job));
+        if (fits_ninja_depfile(job))
+            text += fmt::format("  depfile = {}\n  deps = gcc\n", depfile_of(job.targets.front()));
         if (lanes.large > 0 && job.memory > lanes.small_up_to) text += "  pool = large\n";
     }
     return text;
 }
 
-std::string make_workflow(const std::vector<Job>& jobs, const Resources& resources) {
+std::string make_workflow(const std::vector<Job>& given, const Resources& resources) {
+    const auto jobs = transformed(given, with_depfiles);
     check_jobs(jobs, make_command);
     check_names(jobs, "Make", "|;=*?[]~\t", "use --to ninja, or rename the file");
     std::string rules, all;
@@ -253,10 +303,11 @@ std::string make_workflow(const std::vector<Job>& jobs, const Resources& resourc
         all += " \\\n " + joined(job.outputs, make_input);
         // "&:" groups targets into a single rule: GNU make 4.3.
         rules +=
-            fmt::format("\n# {}, about {} MB\n{} &:{}\n\t{}\n",
+            fmt::format("\n# {}, about {} MB\n{} &:{} $(PROGRAM)\n\t{}\n",
                         counted(static_cast<std::size_t>(resources.threads), "thread"), megabytes_of(job),
                         outputs.substr(1), joined(job.inputs, make_input) + joined(job.absent, make_absent),
                         make_command(job, "$(FACETMILL)", with_dollars_doubled));
+        for (const auto& target : job.targets) rules += fmt::format("-include {}\n", depfile_of(target));
     }
     const Lanes lanes = lanes_of(jobs, resources);
     const std::size_t most = lanes.large > 0 ? lanes.large : lanes.small;
@@ -264,7 +315,10 @@ std::string make_workflow(const std::vector<Job>& jobs, const Resources& resourc
         "# make runs as many jobs at a time as its -j says, whatever memory and threads they need.\n"
         "# -j{} suits {}.\n",
         most, in_words(resources));
-    return heading() + advice + "FACETMILL ?= facetmill\n\n.PHONY: all\nall:" + all + "\n" + rules;
+    return heading() + advice +
+           "FACETMILL ?= facetmill\n# The executable as a file, on which all outputs depend.\n"
+           "PROGRAM := $(subst $() ,\\ ,$(shell command -v $(FACETMILL) 2>/dev/null))\n\n.PHONY: all\nall:" +
+           all + "\n" + rules;
 }
 
 std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& resources) {
@@ -272,19 +326,20 @@ std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& re
     // Snakemake takes braces for wildcards and cannot escape them here.
     check_names(jobs, "Snakemake", "{}", "rename the file");
     Json all = Json::array();
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        const Job& job = jobs[i];
-        all.push_back({{"name", fmt::format("job_{}", i + 1)},
-                       {"asset", job.name},
-                       {"runs", command_lines(job)},
-                       {"inputs", job.inputs},
-                       {"absent", job.absent},
-                       {"outputs", job.outputs},
-                       {"megabytes", megabytes_of(job)}});
-    }
+    for (const Job& job : jobs)
+        all.push_back(
+            {{"name", "job_" + std::filesystem::path(depfile_of(job.outputs.front())).stem().string()},
+             {"asset", job.name},
+             {"runs", command_lines(job)},
+             {"inputs", job.inputs},
+             {"absent", job.absent},
+             {"outputs", job.outputs},
+             {"megabytes", megabytes_of(job)}});
     return heading() + fmt::format(R"(import os
+import shutil
 
 FACETMILL = config.get("facetmill", "facetmill")
+PROGRAM = [path for path in [shutil.which(FACETMILL)] if path]
 JOBS = {}
 
 
@@ -295,7 +350,7 @@ rule all:
 for job in JOBS:
     rule:
         name: job["name"]
-        input: job["inputs"] + [path for path in job["absent"] if os.path.exists(path)]
+        input: job["inputs"] + PROGRAM + [path for path in job["absent"] if os.path.exists(path)]
         output: job["outputs"]
         message: "Processing " + job["asset"].replace("{{", "{{{{").replace("}}", "}}}}")
         params: command=lambda wildcards, job=job: "s=0;" + "".join(f" {{FACETMILL}}{{run}} || s=$?;" for run in job["runs"]) + " exit $s"

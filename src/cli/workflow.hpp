@@ -16,17 +16,22 @@ struct Job {
     /// Missing files that inputs name. The job runs again when they appear, except in Ninja, which has no
     /// optional inputs.
     std::vector<std::string> absent{};
+    std::vector<std::string> targets{}; ///< for each run: the target of its depfile; empty: no depfiles
 };
 
 /// Groups up to `size` jobs into a job, in order. A failing run does not stop the other runs of its group.
 /// Throws a usage error (E-EXPORT) for a job without outputs.
 [[nodiscard]] std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size);
 
+/// The folder of depfiles, in the working directory. Names in it do not depend on other jobs.
+inline constexpr const char* depfile_folder = ".facetmill-depfiles";
+
 /// The resources of parallel jobs.
 struct Resources {
     int threads = 1; ///< threads of each job
     int cores = 1;
-    std::uint64_t memory = 0; ///< in bytes
+    std::uint64_t memory = 0;          ///< in bytes
+    std::string program = "facetmill"; ///< the path of the executable, for Ninja
 };
 
 /// The number of parallel jobs that need little memory, and that need much. A job that needs more than all

@@ -1,5 +1,5 @@
 #pragma once
-// The ready pipelines: the files of pipelines/, embedded at build time (cmake/Embed.cmake).
+// The built-in pipelines: the files of pipelines/, embedded at build time (cmake/Embed.cmake).
 
 #include <string>
 #include <string_view>

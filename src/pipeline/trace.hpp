@@ -26,7 +26,7 @@ struct TracedStep {
 using Trace = std::vector<TracedStep>;
 
 /// A line for each step: "simplify reruns: ratio 0.5 -> 0.4". Compares with the last run of this pipeline
-/// file with the same outputs, as far as the store has it. pipeline_file: empty for a ready pipeline or a
+/// file with the same outputs, as far as the store has it. pipeline_file: empty for a built-in pipeline or a
 /// one-liner.
 [[nodiscard]] std::vector<std::string> explained(const Trace& trace, const Plan& plan,
                                                  const std::string& pipeline_file, cache::Store& store);

@@ -1,16 +1,33 @@
 #include "platform/run_program.hpp"
 
+#include "platform/file_names.hpp"
 #include "platform/sandbox.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fcntl.h>
 #include <poll.h>
+#include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace facetmill {
+
+std::optional<std::filesystem::path> program_in_path(const std::string& name) {
+    const auto runs = [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        return file.is_absolute() && std::filesystem::is_regular_file(file, ignored) && may_run(file);
+    };
+    if (name.find('/') != name.npos)
+        return runs(name) ? std::optional(std::filesystem::path(name)) : std::nullopt;
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (const auto file = std::filesystem::path(folder) / name; runs(file)) return file;
+    return {};
+}
 
 namespace {
 

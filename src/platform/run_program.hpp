@@ -4,10 +4,14 @@
 #include "platform/descriptor.hpp"
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace facetmill {
+
+/// The executable file of this name in the folders of PATH; a name with a slash is looked up as it is.
+[[nodiscard]] std::optional<std::filesystem::path> program_in_path(const std::string& name);
 
 struct ProgramSettings {
     std::filesystem::path program;

@@ -67,11 +67,19 @@ Json schema() {
 Json info_schema() {
     Json out = {{"$schema", schema_dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
+    const Json error = closed_object(
+        {{"id", typed("string")}, {"message", typed("string")}, {"exit_code", typed("integer")}});
     scene["properties"]["file"] = typed("string", "The path of the file, as given.");
     Json drawn = box_schema();
     drawn["description"] = "The box of what viewers draw: skinned and morphed parts in their default pose, "
                            "animated nodes at their largest scale, without hidden parts and levels.";
     scene["properties"]["drawn_bounds"] = std::move(drawn);
+    scene["properties"]["error"] = {
+        {"anyOf", Json::array({error, typed("null")})},
+        {"description", "Why the file cannot be read. Other keys are then missing."}};
+    // An entry is complete, or has an error.
+    scene["anyOf"] = Json::array({{{"required", scene["required"]}}, {{"required", {"file", "error"}}}});
+    scene["required"] = {"file", "error"};
     scene["properties"]["components_detail"] =
         list_of(component_fields().schema(), "The components with the most faces, largest first.");
     scene["properties"]["components_omitted"] =

@@ -12,6 +12,12 @@ const RegisterMessages stage_messages{
      "Give positions in the bind pose. `facetmill info` prints its bounds."},
     {"W-CAP-OPEN", "`clip` cannot cap an open contour. It reports the contour and caps the others.",
      "Close the holes that the plane cuts through with `clean`."},
+    {"W-CONVENTION",
+     "Two scenes that are compared have the same bounding box in another unit, or after a rotation of the "
+     "axes. A picture then shows one of them as a dot, or lying on its side.",
+     "Give `--unit` and `--up` to `facetmill render` and `facetmill diff`, as the hint of the warning shows. "
+     "In "
+     "a pipeline, use `load: {unit: mm, up: z}`, or `transform` before the stage."},
     {"W-FANS",
      "Faces were replaced by triangles that may overlap. The faces have no area, are non-planar and "
      "intersect themselves, or wind several times around some points with their neighbours.",

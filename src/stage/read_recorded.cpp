@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "base/progress.hpp"
+#include "diff/conversion.hpp"
 #include "io/convert.hpp"
 
 #include <fmt/format.h>
@@ -63,15 +64,28 @@ void warn_of_sizes(const std::string& name, Unit others, const Scene& other, con
                              its / mine, name));
 }
 
+/// Warns if the boxes are equal in another unit or after a rotation of the axes. Returns whether it did.
+bool warn_of_convention(const std::string& name, const report::Origin& origin, const Scene& other,
+                        const Scene& scene, Context& context) {
+    const std::string hint = report::conversion_hint(scene, other, origin);
+    if (hint.empty()) return false;
+    context.warn("W-CONVENTION",
+                 fmt::format("{}: '{}' is the same shape as the scene in another unit or up axis",
+                             context.name(), name),
+                 hint);
+    return true;
+}
+
 } // namespace
 
 Scene read_beside(const PathText& path, const Scene& scene, Context& context) {
     io::ReadSettings settings;
     settings.asset_roots = context.places().asset_roots;
     Scene other = read_recorded(context.places().input(path.text), settings, nullptr, context).first;
-    const Unit unit = other.unit;
-    io::convert(other, {scene.unit, scene.up});
-    warn_of_sizes(path.text, unit, other, scene, context);
+    const io::Convention its{other.unit, other.up}, own{scene.unit, scene.up};
+    const report::Origin origin{own, its, io::convert(other, own)};
+    if (!warn_of_convention(path.text, origin, other, scene, context))
+        warn_of_sizes(path.text, its.unit, other, scene, context);
     return other;
 }
 

@@ -19,8 +19,9 @@ void record_input(Context& context, const std::string& path, std::size_t bytes, 
                                                           const io::ReadSettings& settings,
                                                           const io::Codec* codec, Context& context);
 
-/// Reads the mesh file of an option, in the scene's unit and up axis. Warns (W-UNITS) if one of the scenes
-/// has no unit, and their sizes differ by a factor of a hundred. Throws the errors of read_recorded.
+/// Reads the mesh file of an option, in the scene's unit and up axis. Warns if both are the same shape in
+/// another unit or up axis (W-CONVENTION), or if one of the scenes has no unit and their sizes differ by a
+/// factor of a hundred (W-UNITS). Throws the errors of read_recorded.
 [[nodiscard]] Scene read_beside(const PathText& path, const Scene& scene, Context& context);
 
 } // namespace facetmill

@@ -43,10 +43,9 @@ TEST_CASE("an unknown command is answered with the nearest one", "[cli]") {
 
 TEST_CASE("a file or a ready pipeline in the place of the command is answered with one that takes it",
           "[cli]") {
-    for (const char* word : {"convert", "scan.ply", "/scans/a"}) {
+    for (const char* word : {"scan.ply", "/scans/a"}) {
         CAPTURE(word);
-        CHECK(message({word, "a.glb"})
-                  .find("hint: use facetmill pipe load IN ! write OUT to convert a mesh file") !=
+        CHECK(message({word, "a.glb"}).find("hint: use facetmill convert IN OUT to convert a mesh file") !=
               std::string::npos);
     }
     CHECK(message({"repair", "a.stl"})

@@ -336,6 +336,71 @@ message(STATUS "outputs: ${models_OUTPUTS}")
     def test_make(self):
         self.check("Unix Makefiles", "-k")
 
+    def check_changes(self, generator):
+        """What depends on a change is made again, and nothing else."""
+        for name in ("b", "m/d", "m/f", "z"):
+            self.scan(name)
+        self.write("src/scans/m/f.off", self.TETRAHEDRON.replace("0 0 1\n3", "0 0 2\n3"))
+        self.configure(generator)
+        self.assertEqual([self.build(), self.build()], [8, 0], self.said)
+        for name in ("a", "m/e", "zz"):  # before all, between them, and after all
+            self.scan(name)
+            self.assertEqual([self.build(), self.build()], [2, 0], name + self.said)
+        (self.dir / "src/scans/b.off").unlink()
+        self.assertEqual([self.build(), self.build()], [0, 0], "removed: " + self.said)
+        (self.dir / "src/scans/m/d.off").rename(self.dir / "src/scans/m/c.off")
+        self.assertEqual([self.build(), self.build()], [2, 0], "renamed: " + self.said)
+        self.touch(self.dir / "src/scans/m/f.off")
+        self.assertEqual([self.build(), self.build()], [2, 0], "touched: " + self.said)
+        self.touch(self.prefix / "bin/facetmill")
+        self.assertEqual([self.build(), self.build()], [2 * 6, 0], "another release: " + self.said)
+
+    def test_changes_with_ninja(self):
+        self.need("ninja")
+        self.check_changes("Ninja")
+
+    def test_changes_with_make(self):
+        self.check_changes("Unix Makefiles")
+
+    def test_changes_with_meson(self):
+        self.need("meson", in_ci=False)
+        self.need("ninja")
+
+        def project(*names):
+            self.write("src/meson.build", "project('assets')\nmill = find_program('" + str(self.prefix / "bin/facetmill") + "')\n"
+                       f"foreach name : {list(names)}\n"
+                       "  custom_target(name, input: 'scans' / name + '.off', output: [name + '.glb', name + '.json'],\n"
+                       "    depfile: name + '.d', build_by_default: true, command: [mill, 'run', files('web.yaml'), '-D',\n"
+                       "    'input=@INPUT@', '-D', 'unit=cm', '-o', '@OUTDIR@', '--depfile', '@DEPFILE@', '--depfile-target',\n"
+                       "    '@OUTPUT0@', '--quiet'])\nendforeach\n")
+
+        def built():
+            """The outputs that a build made anew."""
+            before = {p.name: p.stat().st_mtime_ns for p in (self.dir / "m").glob("*.glb")}
+            time.sleep(0.02)
+            run = subprocess.run(["ninja", "-C", "m"], cwd=self.dir, capture_output=True, text=True, timeout=300)
+            self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+            return sorted(p.stem for p in (self.dir / "m").glob("*.glb") if before.get(p.name) != p.stat().st_mtime_ns)
+
+        for name in ("b", "d"):
+            self.scan(name)
+        project("b", "d")
+        setup = subprocess.run(["meson", "setup", "m", "src"], cwd=self.dir, capture_output=True, text=True, timeout=300)
+        self.assertEqual(setup.returncode, 0, setup.stdout + setup.stderr)
+        self.assertEqual([built(), built()], [["b", "d"], []])
+        self.scan("a")
+        project("a", "b", "d")
+        self.assertEqual([built(), built()], [["a"], []])
+        project("a", "d")
+        self.assertEqual(built(), [])
+        (self.dir / "src/scans/d.off").rename(self.dir / "src/scans/c.off")
+        project("a", "c")
+        self.assertEqual([built(), built()], [["c"], []])
+        self.touch(self.dir / "src/scans/c.off")
+        self.assertEqual([built(), built()], [["c"], []])
+        self.touch(self.prefix / "bin/facetmill")
+        self.assertEqual([built(), built()], [["a", "c"], []])
+
     def test_each_input_is_planned_once(self):
         executable = self.prefix / "bin/facetmill"
         executable.rename(self.prefix / "bin/mill")

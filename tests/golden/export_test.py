@@ -1,6 +1,7 @@
 """facetmill export: workflows for Ninja, Make and Snakemake, whose outputs are those of facetmill batch."""
 
 import os
+import shutil
 import subprocess
 import time
 
@@ -94,6 +95,92 @@ class Export(Case):
                 times.append(written.stat().st_mtime_ns)
             self.assertEqual(times[0], times[1], engine)
             self.assertEqual(times[2] != times[1], engine == "make")  # Ninja has no optional inputs
+
+    def check_changes(self, engine, name, *command):
+        """What depends on a change is made again, and nothing else. The executable is one of its own."""
+        mill = self.dir / "own/facetmill"
+        mill.parent.mkdir()
+        shutil.copy2(FACETMILL, mill)
+        env = {**self.env, "PATH": f"{mill.parent}:{os.environ['PATH']}"}
+        source = self.dir / "models"
+        self.write("m.yaml", PIPELINE.replace(".ply", ".glb"))
+
+        def built(*again):
+            """The outputs that a build makes anew, after another export."""
+            text = subprocess.run([mill, "export", "--to", engine, "m.yaml", "--input", "models/*", "-o", "made"], cwd=self.dir,
+                                  capture_output=True, text=True, timeout=300)
+            self.assertEqual(text.returncode, 0, text.stderr)
+            self.write(name, text.stdout)
+            before = {p.name: p.stat().st_mtime_ns for p in (self.dir / "made").glob("*.glb")}
+            time.sleep(0.02)
+            run = subprocess.run(command, cwd=self.dir, env=env, capture_output=True, text=True, timeout=300)
+            self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+            return sorted(p.stem for p in (self.dir / "made").glob("*.glb") if before.get(p.name) != p.stat().st_mtime_ns)
+
+        def due(names):
+            self.assertEqual([built(), built()], [sorted(names), []])
+            time.sleep(0.02)
+
+        def touch(path):
+            time.sleep(0.02)
+            os.utime(path)
+
+        for asset in ("b", "it's", "d"):
+            self.write(f"models/{asset}.off", TETRAHEDRON)
+        due(["b", "it's", "d"])
+        self.write("models/a.off", TETRAHEDRON)
+        due(["a"])
+        (source / "b.off").unlink()
+        due([])
+        (source / "d.off").rename(source / "c.off")
+        due(["c"])
+        touch(source / "it's.off")
+        due(["it's"])
+        touch(mill)
+        due(["a", "c", "it's"])
+        touch(self.dir / "m.yaml")
+        due(["a", "c", "it's"])
+
+    def test_changes_with_ninja(self):
+        self.need("ninja")
+        self.check_changes("ninja", "build.ninja", "ninja")
+
+    def test_changes_with_make(self):
+        self.check_changes("make", "Makefile", "make")
+
+    def test_changes_with_snakemake(self):
+        self.need("snakemake", in_ci=False)
+        self.check_changes("snakemake", "Snakefile", "snakemake", "-j2")
+
+    def test_files_that_only_a_run_knows_are_dependencies(self):
+        """A texture that an asset names since its last run, and a missing one that appears."""
+        for engine, name, command in (("make", "Makefile", ("make",)), ("ninja", "build.ninja", ("ninja",))):
+            with self.subTest(engine):
+                self.need(engine)
+                folder = self.dir / f"of {engine}"
+                folder.mkdir()
+                self.gltf_with_neighbours(folder)
+                picture = (folder / "tex.png").read_bytes()
+                (folder / "tex.png").unlink()
+                self.write("g.yaml", PIPELINE.replace(".ply", ".glb"))
+                self.write(name, self.mill("export", "--to", engine, "g.yaml", "--input", f"of {engine}/t.gltf", "-o", engine).stdout)
+                made = self.dir / engine / "t.glb"
+
+                def is_due():
+                    before = made.stat().st_mtime_ns if made.exists() else 0
+                    time.sleep(0.02)
+                    self.build(*command)
+                    return made.stat().st_mtime_ns != before
+
+                self.assertEqual([is_due(), is_due()], [True, False], "the texture is missing")
+                time.sleep(0.02)
+                (folder / "tex.png").write_bytes(picture)
+                self.assertEqual([is_due(), is_due()], [engine == "make", False], "it appeared")
+                os.utime(folder / "t.gltf")  # Ninja has no optional inputs
+                self.assertEqual([is_due(), is_due()], [True, False], "its asset changed")
+                time.sleep(0.02)
+                os.utime(folder / "tex.png")
+                self.assertEqual([is_due(), is_due()], [True, False], "it changed")
 
     def test_shards(self):
         for engine, name, command, nothing in (("ninja", "build.ninja", ("ninja",), "no work to do"),

@@ -61,12 +61,12 @@ class FirstUse(Case):
         self.write("b.off", CUBE)
         self.write("bad.off", "OFF\n3 1 0\n0 0 0\n")
         run = self.mill("info", "--json", "part.off", "bad.off", "none.off", "b.off", expect=6)
-        self.assertEqual([(r["file"], r["volume"]) for r in json.loads(run.stdout)], [("part.off", 3), ("b.off", 3)])
+        self.assertEqual([(r["file"], r.get("volume")) for r in json.loads(run.stdout)],
+                         [("part.off", 3), ("bad.off", None), ("none.off", None), ("b.off", 3)])
         self.assertIn("bad.off", run.stderr)
         self.assertIn("none.off", run.stderr)
         self.assertEqual(self.mill("info", "part.off", "bad.off", expect=6).stdout.count("volume"), 1)
         self.assertEqual(json.loads(self.mill("info", "--json", "part.off").stdout)["file"], "part.off")
-        self.assertEqual(len(json.loads(self.mill("info", "--json", "part.off", "bad.off", expect=6).stdout)), 1)
 
     def test_foreach_over_one_part(self):
         self.mill("pipe", "load", "part.off", "!", "foreach", "part=*", "[", "write", "one.ply", "]")

@@ -63,6 +63,9 @@ class Golden(Case):
 
 
 for path in PIPELINES:
+    if path.stem in ("convert", "view"):  # no report, no output but the report: doors_test.py
+        continue
+
     def test(self, path=path):
         self.check_pipeline(path)
     setattr(Golden, "test_" + path.stem.replace("-", "_"), test)

@@ -120,11 +120,18 @@ void validate(const std::vector<std::pair<Json, Json>>& schemas_and_documents) {
 
 TEST_CASE("reports and info are valid by their published schemas", "[report]") {
     const Scene scene = cube_scene();
-    const Json info = scene_json(scene, inspect(scene));
+    const auto info = [](const Scene& shown) {
+        Json json = {{"file", "a.ply"}, {"error", nullptr}};
+        json.update(scene_json(shown, inspect(shown)));
+        return json;
+    };
+    const Json unreadable = {{"file", "a.ply"},
+                             {"error", {{"id", "E-PLY"}, {"message", "no"}, {"exit_code", 6}}}};
     validate({{schema(), to_json(full_record())},
               {schema(), to_json(RunRecord{})},
-              {info_schema(), info},
-              {info_schema(), scene_json(Scene{}, inspect(Scene{}))}});
+              {info_schema(), info(scene)},
+              {info_schema(), info(Scene{})},
+              {info_schema(), unreadable}});
 }
 
 TEST_CASE("the schema names every key of a report, and nothing else", "[report]") {

@@ -57,28 +57,31 @@ TEST_CASE("both shadings make a picture of twice the width", "[stages]") {
     CHECK(run.record.result["height"] == 80);
 }
 
-TEST_CASE("another file of a hundred times the size, in an unknown unit, is told", "[stages]") {
+TEST_CASE("another file in another unit or up axis is told", "[stages]") {
     const test::TemporaryDirectory folder;
-    const auto warned = [&](double factor, Unit unit, Unit others) {
+    const auto told = [&](const Vec3& size, Unit unit, Unit others) {
         const auto other = folder / "other.off";
         Scene large = scene_of(shapes::cube(), others);
-        for (Vec3& p : large.parts[0].mesh.positions) p = p * factor;
+        for (Vec3& p : large.parts[0].mesh.positions) p = {p.x * size.x, p.y * size.y, p.z * size.z};
         io::write_now(other, io::codec_for(other)->write(large, {}).files.front().bytes);
-        const auto run =
-            run_stage("render", options({{"path", (folder / "p.png").string()}, {"with", other.string()}}),
-                      scene_of(shapes::cube(), unit));
+        Scene scene = scene_of(shapes::cube(), unit);
+        for (Vec3& p : scene.parts[0].mesh.positions) p.z *= 3;
+        const auto run = run_stage(
+            "render", options({{"path", (folder / "p.png").string()}, {"with", other.string()}}), scene);
         std::string all;
         for (const auto& w : run.record.warnings)
-            if (w.id == "W-UNITS")
-                all += w.message.substr(w.message.find("is ")) + " | " + w.hint.substr(4, 23);
+            if (w.id == "W-UNITS" || w.id == "W-CONVENTION") all += w.id + " " + w.hint;
         return all;
     };
-    CHECK(warned(1000, Unit::unknown, Unit::unknown) ==
-          "is 1000 times as large as the scene: are they in different units? | transform: {scale: 1000");
-    CHECK(warned(0.001, Unit::m, Unit::unknown).starts_with("is 0.001 times as large"));
-    CHECK(warned(1000, Unit::mm, Unit::mm).empty());
-    CHECK(warned(1000, Unit::m, Unit::mm).empty()); // which are alike
-    CHECK(warned(99, Unit::unknown, Unit::unknown).empty());
+    const Unit unknown = Unit::unknown;
+    CHECK(told({1, 1, 3}, unknown, unknown).empty());
+    CHECK(told({1, 1, 2}, unknown, unknown).empty()); // another shape
+    CHECK(told({10, 10, 30}, unknown, unknown).find("use --unit cm,mm") != std::string::npos);
+    CHECK(told({1000, 1000, 3000}, unknown, unknown).starts_with("W-CONVENTION"));
+    CHECK(told({0.001, 0.001, 0.003}, Unit::m, unknown).starts_with("W-CONVENTION"));
+    CHECK(told({1, 3, 1}, unknown, unknown).starts_with("W-CONVENTION")); // rotated
+    // Another shape and far apart in size.
+    CHECK(told({1000, 1000, 1000}, unknown, unknown).starts_with("W-UNITS use transform: {scale: "));
 }
 
 TEST_CASE("another file is drawn beside the scene by one camera", "[stages]") {

@@ -227,17 +227,6 @@ class Loan {
     bool broken_ = false;
 };
 
-std::optional<fs::path> in_path(const char* name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path file = fs::path(folder) / name;
-        std::error_code ignored;
-        if (file.is_absolute() && fs::is_regular_file(file, ignored) && may_run(file)) return file;
-    }
-    return {};
-}
-
 } // namespace
 
 std::optional<fs::path> ktx_program() {
@@ -247,8 +236,8 @@ std::optional<fs::path> ktx_program() {
         const bool runs = !failed && fs::is_regular_file(file, failed) && may_run(file);
         return runs ? std::optional(file) : std::nullopt;
     }
-    if (auto ktx = in_path("ktx")) return ktx;
-    return in_path("toktx");
+    if (auto ktx = program_in_path("ktx")) return ktx;
+    return program_in_path("toktx");
 }
 
 void start_ktx_workers() {
