@@ -106,7 +106,7 @@ void add_common_options(Arguments& arguments, DoorOptions& options, Console& con
 }
 
 constexpr const char* convert_examples =
-    R"(Runs the built-in pipeline convert. The content of IN and the suffix of OUT give the formats (facetmill formats).
+    R"(Runs the built-in pipeline convert. The content of IN and the suffix of OUT give the formats.
 
 Examples
   facetmill convert scan.ply scan.glb
@@ -123,8 +123,8 @@ Examples
 )";
 
 constexpr const char* fix_examples =
-    R"(Runs the built-in pipeline repair: fills holes, unites solids, orients faces and checks the result for printing. The
-exit code is 1, and no file is written, if a check fails. The report next to the result shows where.
+    R"(Runs the built-in pipeline repair: fills holes, unites solids, orients faces and checks the result for
+printing. If a check fails, the exit code is 1 and no file is written. The report next to the result shows where.
 
 Examples
   facetmill fix scan.stl

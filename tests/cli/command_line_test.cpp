@@ -41,7 +41,7 @@ TEST_CASE("an unknown command is answered with the nearest one", "[cli]") {
           "     ^~~\n  hint: did you mean 'run'?\n");
 }
 
-TEST_CASE("a file or a ready pipeline in the place of the command is answered with one that takes it",
+TEST_CASE("a file or a built-in pipeline in the place of the command is answered with one that takes it",
           "[cli]") {
     for (const char* word : {"scan.ply", "/scans/a"}) {
         CAPTURE(word);

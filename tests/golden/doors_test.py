@@ -1,4 +1,4 @@
-"""facetmill convert, view and fix: ready pipelines as commands. And what new, docs and run say about ready pipelines."""
+"""facetmill convert, view and fix: built-in pipelines as commands. And what new, docs and run say about built-in pipelines."""
 
 import os
 import time
