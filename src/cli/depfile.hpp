@@ -19,9 +19,8 @@ void require_spellable(const std::string& target, const pipeline::Plan& plan);
 /// Writes the rule of a run; the record's paths must be valid from the working directory. The target is the
 /// given one, because Ninja needs a single target. If empty, it is the first written mesh, otherwise the
 /// first output, the first report, or the depfile itself. The rule depends on the pipeline's file, if given,
-/// and on all inputs. Missing
-/// files that an input names are not listed: Ninja would run the rule each time, and their folder would run
-/// it for every new file there.
+/// and on all inputs. Missing files that an input names are not listed: Ninja would run the rule each time,
+/// and their folder would run it for every new file there.
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
                    const pipeline::Plan& plan, const report::RunRecord& record);
 

@@ -4,8 +4,10 @@
 #include "cli/save_pipeline.hpp"
 #include "docs/ready.hpp"
 #include "pipeline/document.hpp"
+#include "pipeline/expressions.hpp"
 #include "platform/page_opener.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 
@@ -82,8 +84,7 @@ int run_door(const char* pipeline, DoorOptions& options, const CommandLine& line
 
 /// Runs the pipeline view, and opens its page.
 int view(DoorOptions& options, const CommandLine& line, const Console& console) {
-    if (options.output.empty())
-        options.output = std::filesystem::path(options.input).stem().string() + ".html";
+    if (options.output.empty()) options.output = pipeline::stem_of(options.input) + ".html";
     const auto opener = options.no_open ? nullptr : std::make_unique<PageOpener>();
     const int code = run_door("view", options, line, console);
     if (code != 0) return code;
@@ -124,7 +125,8 @@ Examples
 
 constexpr const char* fix_examples =
     R"(Runs the built-in pipeline repair: fills holes, unites solids, orients faces and checks the result for
-printing. If a check fails, the exit code is 1 and no file is written. The report next to the result shows where.
+printing. If a check fails, the exit code is 1 and no file is written. The report
+NAME.repaired.html in the working directory shows where.
 
 Examples
   facetmill fix scan.stl
@@ -187,6 +189,13 @@ Command fix_command() {
                 add_params(document_of("repair"), arguments, options);
                 add_common_options(arguments, *options, console);
                 return [=, &console](const Invocation& invocation) {
+                    const auto& given = options->run.defines;
+                    if (!options->output.empty() &&
+                        std::any_of(given.begin(), given.end(),
+                                    [](const auto& define) { return define.starts_with("format="); }))
+                        throw Error(ErrorKind::usage, "E-CONFLICT",
+                                    "--format cannot be combined with OUT, whose suffix gives the format",
+                                    "remove one of them", invocation.line.find("--format"));
                     return run_door("repair", *options, invocation.line, console);
                 };
             }};

@@ -179,7 +179,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     add_cell_options(arguments, options);
     arguments.add("--cells-job", &options.cells_job,
                   "Runs one of several jobs that share --keep-cells: cells makes the cells, and 3/16\nis the "
-                  "third of 16 jobs that simplify. It has no outputs. facetmill export writes such jobs.");
+                  "third of 16 jobs that simplify. It has no outputs.\nfacetmill export writes such jobs.");
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
                   "Prints for each stage why it ran again, or that its result is from the cache.");
@@ -277,7 +277,7 @@ bool is_mesh_by_bytes(const std::string& name) {
     std::error_code trouble;
     if (!fs::is_regular_file(name, trouble)) return false;
     const auto* codec = io::sure_codec(io::Input::open(name));
-    return codec && codec->read;
+    return codec && codec->read && codec->name != "gltf";
 }
 
 } // namespace

@@ -101,8 +101,8 @@ void check_outputs(const std::vector<Job>& jobs) {
 
 /// Linux limits an argument to 131072 bytes, and the shell gets its command as a single argument. Reserves
 /// space for the engine's additions, and in each run for the program's path.
-void check_lengths(const std::vector<Job>& jobs, CommandOf command) {
-    constexpr std::size_t most = 131'072 - 512, of_program = 40;
+void check_lengths(const std::vector<Job>& jobs, CommandOf command, std::size_t of_program) {
+    constexpr std::size_t most = 131'072 - 512;
     const auto as_it_is = [](const std::string& text) { return text; };
     for (const auto& job : jobs) {
         const std::size_t length = command(job, std::string(of_program, 'p'), as_it_is).size();
@@ -117,9 +117,9 @@ void check_lengths(const std::vector<Job>& jobs, CommandOf command) {
     }
 }
 
-void check_jobs(const std::vector<Job>& jobs, CommandOf command) {
+void check_jobs(const std::vector<Job>& jobs, CommandOf command, std::size_t of_program = 40) {
     check_outputs(jobs);
-    check_lengths(jobs, command);
+    check_lengths(jobs, command, of_program);
 }
 
 /// Refuses names with characters that the engine cannot represent: reports all such inputs, or else all such
@@ -190,7 +190,11 @@ std::vector<Job> transformed(const std::vector<Job>& jobs, Job (*change)(Job)) {
 
 std::string make_target(const std::string& path) { return make_escaped(path, true); }
 std::string make_input(const std::string& path) { return make_escaped(path, false); }
-std::string make_absent(const std::string& path) { return "$(wildcard " + make_input(path) + ")"; }
+/// Empty for names with parentheses, which end or open functions of Make.
+std::string make_absent(const std::string& path) {
+    if (path.find_first_of("()") != path.npos) return {};
+    return "$(wildcard " + make_input(path) + ")";
+}
 
 /// Names in JSON must be UTF-8.
 std::string as_json(const Json& all) {
@@ -270,7 +274,7 @@ std::string ninja_pools(const Lanes& lanes, const Resources& resources) {
 std::string ninja_workflow(const std::vector<Job>& given, const Resources& resources) {
     const auto jobs = transformed(
         given, [](Job job) { return fits_ninja_depfile(job) ? with_depfiles(std::move(job)) : job; });
-    check_jobs(jobs, plain_command);
+    check_jobs(jobs, plain_command, for_shell(resources.program).size());
     check_names(jobs, "Ninja", "|\t", "rename the file");
     const Lanes lanes = lanes_of(jobs, resources);
     std::string text =

@@ -109,7 +109,8 @@ void warn_of_lost(Written& written, const Scene& scene, const char* format,
                   const std::set<std::string>& kept) {
     std::vector<std::string> lost, names;
     for (const auto& [name, value] : metadata_of(scene))
-        if (!kept.contains("metadata") && !kept.contains(name)) names.push_back(one_line(name));
+        if (!kept.contains("metadata") && !kept.contains(name) && name != comments_key)
+            names.push_back(one_line(name)); // comments name programs and dates more often than anything else
     if (!names.empty()) lost.push_back("the metadata " + some_of(names));
     for (const auto& document : scene.documents)
         add_contents(lost, parse_json(document->json, Broken::discarded), kept);

@@ -78,7 +78,10 @@ Json info_schema() {
         {"anyOf", Json::array({error, typed("null")})},
         {"description", "Why the file cannot be read. Other keys are then missing."}};
     // An entry is complete, or has an error.
-    scene["anyOf"] = Json::array({{{"required", scene["required"]}}, {{"required", {"file", "error"}}}});
+    Json named = Json::object();
+    for (const Json& key : scene["required"]) named[key.get<std::string>()] = Json::object();
+    scene["if"] = {{"properties", {{"error", {{"type", "null"}}}}}};
+    scene["then"] = {{"required", scene["required"]}, {"properties", std::move(named)}};
     scene["required"] = {"file", "error"};
     scene["properties"]["components_detail"] =
         list_of(component_fields().schema(), "The components with the most faces, largest first.");

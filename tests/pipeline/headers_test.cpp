@@ -102,7 +102,7 @@ TEST_CASE("inputs that no stage could load are found before anything runs", "[pi
     CHECK(errors[0].find("6: ") == 0);
     CHECK(errors[0].find("broken.ply:3") != std::string::npos);
     INFO(errors[1]);
-    CHECK(errors[1].find("2: p.yaml:3:24: error[E-FORMAT]: '") == 0);
+    CHECK(errors[1].find("2: p.yaml:3:24: error[E-FORMAT]: facetmill cannot read the format of '") == 0);
 }
 
 TEST_CASE("a physical length on a scene without a unit is found before anything runs", "[pipeline]") {

@@ -9,7 +9,7 @@ using test::scene_of;
 
 namespace {
 
-/// A multiple of 3, the size of tiles, and exact for the whole coordinates of the shapes.
+/// Exact for the whole coordinates of the shapes.
 constexpr Vec3 far_away{500001, 5200002, 399};
 
 Mesh at_far(Mesh mesh) {
@@ -39,8 +39,7 @@ TEST_CASE("stages give the same far from the origin", "[property]") {
     Mesh block = shapes::cube();
     for (Vec3& p : block.positions) p = p * 8;
     for (const Mesh& mesh : {terrain, block})
-        for (const auto& [stage, options] : {std::pair{"tile", "{size: 3}"},
-                                             {"split", "midpoint"},
+        for (const auto& [stage, options] : {std::pair{"split", "midpoint"},
                                              {"split", "{method: bisect, max_edge: 0.7}"},
                                              {"relax", "2"},
                                              {"clean", "{}"}}) {

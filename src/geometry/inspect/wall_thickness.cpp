@@ -314,7 +314,7 @@ double least_thickness(const Mesh& mesh) {
     const CentreRays rays(mesh, surface);
     parallel_for(
         mesh.face_count(),
-        [&](std::size_t f) { least.offer(rays.distance(static_cast<Index>(f), least.get())); }, 256);
+        [&](std::size_t f) { least.offer(rays.distance(static_cast<Index>(f), HUGE_VAL)); }, 256);
     const Walls walls(surface);
     parallel_for(
         surface.size(),

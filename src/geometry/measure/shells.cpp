@@ -46,7 +46,9 @@ std::optional<OverlappingShells> overlapping_shells(const Mesh& mesh, double vol
     if (shells.unites) {
         CleanSettings settings;
         settings.self_intersections = Untangle::unite;
-        sound = clean(std::move(sound), settings).mesh;
+        CleanResult united = clean(std::move(sound), settings);
+        if (!united.not_done.empty()) return shells;
+        sound = std::move(united.mesh);
     }
     shells.solid = measure_mass(sound).solid;
     constexpr double rounding = 1e-9; // of sums over millions of faces, and of new vertices of the union

@@ -417,12 +417,14 @@ void keep_asset(Json& asset, const Json& other) {
 /// Whether the copyright or extras of another document's asset differ from those that are written.
 bool has_other_metadata(const Json& asset, const Json& other) {
     const Json from = other.value("asset", Json::object());
-    if (from.contains("copyright") && from["copyright"] != asset["copyright"]) return true;
-    if (!from.contains("extras") || from["extras"] == asset["extras"]) return false;
-    if (!from["extras"].is_object()) return true;
-    const auto items = from["extras"].items();
+    if (!from.is_object()) return false;
+    if (from.contains("copyright") && from["copyright"] != asset.value("copyright", Json())) return true;
+    const Json theirs = from.value("extras", Json()), own = asset.value("extras", Json());
+    if (theirs.empty() || theirs == own) return false;
+    if (!theirs.is_object()) return true;
+    const auto items = theirs.items();
     return std::any_of(items.begin(), items.end(), [&](const auto& item) {
-        return !asset["extras"].contains(item.key()) || asset["extras"][item.key()] != item.value();
+        return !own.contains(item.key()) || own[item.key()] != item.value();
     });
 }
 

@@ -99,6 +99,7 @@ AttributeData array_of(Type type) {
 /// hold for another file.
 void take_comment_of(Header& header, std::string_view comment) {
     take_comment(comment, header.stated);
+    header.own = header.own || trimmed(comment) == "written by facetmill";
     if (states(comment)) return;
     const std::string text = lower_case(std::string(comment));
     for (const char* of_program : {"generated", "written by", "created by", "exported", "made by"})

@@ -40,6 +40,7 @@ struct Header {
     Stated stated{};                   ///< the unit and up axis that comments state
     /// Other comments, without those that name the program that wrote the file, and lines of obj_info.
     std::vector<std::string> comments{};
+    bool own = false; ///< facetmill wrote the file, so that its fractions of colours may exceed 2
 };
 
 /// Reads the header; throws a malformed-input error (E-PLY) with the line.

@@ -308,7 +308,7 @@ Scene Builder::read() {
     add_corner_uvs();
     add_normals(vertices_, mesh_);
     add_uvs(vertices_, mesh_);
-    add_colours(vertices_, mesh_, Domain::wedge);
+    add_colours(vertices_, mesh_, Domain::wedge, header.own);
     add_others(vertices_, mesh_, Domain::wedge);
     if (mesh_.has_seams())
         for (auto& a : mesh_.attributes)
@@ -323,7 +323,7 @@ Scene Builder::read() {
     if (!header.comments.empty()) document.asset()["extras"][comments_key] = header.comments;
     if (!document.empty()) scene.documents.push_back(document.finish());
     if (faces_.count() > 0) {
-        add_colours(faces_, mesh_, Domain::face);
+        add_colours(faces_, mesh_, Domain::face, header.own);
         add_others(faces_, mesh_, Domain::face);
     }
     if (vertices_.element) warn_of_splats();

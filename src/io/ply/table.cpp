@@ -96,7 +96,7 @@ std::vector<std::size_t> Table::take(std::initializer_list<std::string_view> nam
     return found;
 }
 
-void add_colours(Table& table, Mesh& mesh, Domain domain) {
+void add_colours(Table& table, Mesh& mesh, Domain domain, bool are_fractions) {
     for (const auto& [r, g, b, a] :
          {std::array{"red", "green", "blue", "alpha"}, std::array{"r", "g", "b", "a"},
           std::array{"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}}) {
@@ -108,9 +108,12 @@ void add_colours(Table& table, Mesh& mesh, Domain domain) {
         if (same_type(table, columns) && type == Type::uint16) {
             colour.data = interleaved<std::uint16_t>(table, columns);
             colour.normalised = true;
+        } else if (same_type(table, columns) && type == Type::uint8) {
+            colour.data = interleaved<std::uint8_t>(table, columns);
+            colour.normalised = true;
         } else if (auto values = interleaved<float>(table, columns);
                    type == Type::float32 || type == Type::float64) {
-            const float full = full_brightness(values);
+            const float full = are_fractions ? 1 : full_brightness(values);
             for (float& x : values) x /= full;
             colour.data = std::move(values);
         } else {

@@ -28,8 +28,9 @@ inline constexpr std::pair<const char*, const char*> texture_points[] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
 
 /// Adds colours as COLOR_0 (3 or 4 components). Integers become fractions of 16 bits if all columns have 16
-/// bits or a value needs them, otherwise of 8 bits. Floats up to 255 or 65535 become fractions of these.
-void add_colours(Table& table, Mesh& mesh, Domain domain);
+/// bits or a value needs them, otherwise of 8 bits. Floats up to 255 or 65535 become fractions of these,
+/// unless they are fractions already.
+void add_colours(Table& table, Mesh& mesh, Domain domain, bool are_fractions);
 /// Adds nx, ny and nz as NORMAL.
 void add_normals(Table& table, Mesh& mesh);
 /// Adds the first existing pair of `texture_points` as TEXCOORD_0, with v from the top as in glTF.

@@ -304,11 +304,15 @@ class ModelReader {
             numbers.push_back(natural(e, attribute, word));
         return numbers;
     }
+    static constexpr std::size_t most_layers = 64; ///< each multi has a property of each layer
+
     void layers(const Element& e) {
         const std::uint32_t id = natural(e, "id");
         claim(e, id, false);
         layers_of_ = &layers_[id];
         layers_of_->groups = naturals(e, "pids");
+        if (layers_of_->groups.size() > most_layers)
+            fail(e, fmt::format("multiproperties have more than {} layers", most_layers));
         for (const std::string_view method : words_of(e.find("blendmethods").value_or("")))
             layers_of_->multiply.push_back(method == "multiply");
     }

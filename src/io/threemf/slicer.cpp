@@ -55,9 +55,10 @@ void SlicerVolumes::read_ranges(Span xml, const std::string& name) {
     std::uint32_t object = none;
     bool in_volume = false;
     const auto start = [&](const Element& e) {
-        if (e.name == "object")
+        if (e.name == "object") {
             object = number(e, "id");
-        else if (e.name == "volume") {
+            in_volume = false; // an object has metadata before its volumes
+        } else if (e.name == "volume") {
             in_volume = true;
             ranges_[object].push_back({number(e, "firstid"), number(e, "lastid"), ""});
         } else if (e.name == "metadata" && in_volume) {

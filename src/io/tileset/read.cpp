@@ -67,6 +67,8 @@ class Contents {
     std::vector<Input> others; ///< nested tilesets, and files that list the existing implicit tiles
 
   private:
+    static constexpr std::size_t most_nested = 65536;
+
     void add_tileset(const Input& input, const Transform& above) {
         constexpr std::size_t deepest = 32;
         if (open_.size() >= deepest || std::find(open_.begin(), open_.end(), input.path()) != open_.end())
@@ -107,7 +109,11 @@ class Contents {
         const JsonCursor uri = content.at("uri");
         const std::string text = uri.text();
         if (text.substr(0, text.find('?')).ends_with(".json")) {
-            const Input nested = file_below(*input_, text, uri.path());
+            if (++nested_ > most_nested)
+                throw Error(ErrorKind::limit, "E-LIMIT",
+                            fmt::format("'{}' has more than {} nested tilesets", input_->name(), most_nested),
+                            "load some of its tiles");
+            const Input nested = file_below(*input_, text.substr(0, text.find('?')), uri.path());
             others.push_back(nested);
             return gltf::in_file(nested, [&] { add_tileset(nested, here); });
         }
@@ -121,6 +127,7 @@ class Contents {
         others.insert(others.end(), found.files.begin(), found.files.end());
     }
 
+    std::size_t nested_ = 0;       ///< nested tilesets so far: each may name another twice
     const Input* input_ = nullptr; ///< the tileset being read
     Transform turn_;               ///< turn_of_contents
     std::vector<std::filesystem::path> open_;

@@ -327,6 +327,12 @@ TEST_CASE("volumes of slicers that are not printed are left out and named", "[io
                                         file("Metadata/Slic3r_PE_model.config", settings("ModelPart"))}));
     CHECK(all.scene.face_count() == 4);
     CHECK(all.log.warnings.empty());
+    const std::string more = R"(<?xml version="1.0"?><config><object id="1">
+<volume firstid="2" lastid="3"><metadata type="volume" key="volume_type" value="NegativeVolume"/></volume></object>
+<object id="2"><metadata type="object" key="modifier" value="1"/></object></config>)";
+    CHECK(load(io::threemf::make_archive({file("3D/3dmodel.model", model(two, R"(<item objectid="1"/>)")),
+                                          file("Metadata/Slic3r_PE_model.config", more)}))
+              .scene.face_count() == 2);
     const std::string parts =
         fmt::format("<object id=\"1\">{0}</object><object id=\"2\">{0}</object><object id=\"3\"><components>"
                     "<component objectid=\"1\"/><component objectid=\"2\"/></components></object>",

@@ -216,11 +216,17 @@ void add_instances(const Scene& scene, const std::vector<PartView>& views, Box& 
     const bool any = std::any_of(views.begin(), views.end(),
                                  [](const PartView& view) { return view.instanced && view.is_drawn(); });
     if (!any) return;
-    std::map<std::size_t, Box> boxes; // by part
+    std::size_t exact = std::size_t{1} << 22; // vertices at instances; the others by the corners of their box
+    std::map<std::size_t, Box> boxes;         // by part
     for_each_place_of_instances(scene, [&](std::size_t i, const Transform& place, double) {
         if (!views[i].is_drawn()) return;
+        const Mesh& mesh = scene.parts[i].mesh;
+        if (mesh.vertex_count() <= exact) {
+            exact -= mesh.vertex_count();
+            return shown.add(drawn_box(mesh, place));
+        }
         const auto [known, first] = boxes.try_emplace(i);
-        if (first) known->second = drawn_box(scene.parts[i].mesh);
+        if (first) known->second = drawn_box(mesh);
         shown.add(box_of_corners(known->second, place));
     });
 }

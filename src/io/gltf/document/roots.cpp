@@ -47,6 +47,14 @@ std::vector<std::size_t> roots_of(const Json& scene, std::size_t nodes) {
 
 void put_above_roots(Json& document, const Transform& t) {
     const std::size_t count = count_of(document, "nodes");
+    if (count_of(document, "scenes") == 0 && count > 0) { // viewers then show all nodes
+        const auto frames = node_frames(document);
+        std::vector<std::size_t> roots;
+        for (std::size_t n = 0; n < count; ++n)
+            if (frames[n].parent < 0) roots.push_back(n);
+        document["scenes"] = Json::array({{{"nodes", roots}}});
+        document["scene"] = 0;
+    }
     std::map<std::size_t, std::size_t> uses; // a node may be a root of several scenes
     for (std::size_t s = 0; s < count_of(document, "scenes"); ++s)
         for (const std::size_t root : roots_of(document["scenes"][s], count)) ++uses[root];
