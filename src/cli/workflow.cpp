@@ -190,9 +190,9 @@ std::vector<Job> transformed(const std::vector<Job>& jobs, Job (*change)(Job)) {
 
 std::string make_target(const std::string& path) { return make_escaped(path, true); }
 std::string make_input(const std::string& path) { return make_escaped(path, false); }
-/// Empty for names with parentheses, which end or open functions of Make.
+/// Empty for names that functions of Make split or end at.
 std::string make_absent(const std::string& path) {
-    if (path.find_first_of("()") != path.npos) return {};
+    if (path.find_first_of(" ()") != path.npos) return {};
     return "$(wildcard " + make_input(path) + ")";
 }
 

@@ -157,13 +157,13 @@ class Export(Case):
         for engine, name, command in (("make", "Makefile", ("make",)), ("ninja", "build.ninja", ("ninja",))):
             with self.subTest(engine):
                 self.need(engine)
-                folder = self.dir / f"of {engine}"
+                folder = self.dir / f"of-{engine}"
                 folder.mkdir()
                 self.gltf_with_neighbours(folder)
                 picture = (folder / "tex.png").read_bytes()
                 (folder / "tex.png").unlink()
                 self.write("g.yaml", PIPELINE.replace(".ply", ".glb"))
-                self.write(name, self.mill("export", "--to", engine, "g.yaml", "--input", f"of {engine}/t.gltf", "-o", engine).stdout)
+                self.write(name, self.mill("export", "--to", engine, "g.yaml", "--input", f"of-{engine}/t.gltf", "-o", engine).stdout)
                 made = self.dir / engine / "t.glb"
 
                 def is_due():

@@ -346,7 +346,7 @@ FOLLOWED = [
      "pipe load crossing.off ! orient ! clean --self_intersections union ! measure"),
     ("W-GEOCENTRIC", "pipe load utm.ply --unit m --up z ! write t/tileset.json", "transform --centre",
      "pipe load utm.ply --unit m --up z ! transform --centre ! write t/tileset.json"),
-    ("W-MERGED", "pipe load '{animated,camera}.gltf' ! write o.glb", "load 'camera.gltf' by itself", "pipe load camera.gltf ! write o.glb"),
+    ("W-MERGED", "pipe load '{animated,camera}.gltf' ! write o.glb", "load 'camera.gltf' alone", "pipe load camera.gltf ! write o.glb"),
     ("W-REST-POSE", "pipe load morph.gltf ! simplify --max_error 5% ! write o.glb", "simplify 50%",
      "pipe load morph.gltf ! simplify 50% ! write o.glb"),
     ("W-ROUNDED", "pipe load far.ply ! write o.stl", "PLY, OBJ or OFF with --precision full", "pipe load far.ply ! write o.ply --precision full"),

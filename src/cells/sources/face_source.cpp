@@ -7,8 +7,11 @@
 #include "cells/sources/rows.hpp"
 #include "cells/sources/stl_source.hpp"
 #include "io/encoding.hpp"
+#include "io/material_document.hpp"
+#include "io/metadata.hpp"
 #include "io/outputs/output_files.hpp"
 #include "io/packing.hpp"
+#include "io/ply/ply.hpp"
 #include "io/stl/stl.hpp"
 #include "io/text.hpp"
 
@@ -233,6 +236,20 @@ std::uint64_t estimated_faces(const std::filesystem::path& path) {
     return size / text_bytes;
 }
 
+namespace {
+
+/// Keeps the comments of a PLY as reading it into memory does.
+void take_comments(const io::Input& input, FaceSource::Contents& contents) {
+    if (format_of(input) != Format::ply) return;
+    const auto comments = io::ply::read_header(input).comments;
+    if (comments.empty()) return;
+    io::MaterialDocument document(input.name());
+    document.asset()["extras"][io::comments_key] = comments;
+    contents.documents.push_back(document.finish());
+}
+
+} // namespace
+
 std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>& paths,
                                        const io::ReadSettings& settings, const std::filesystem::path& scratch,
                                        std::size_t memory, bool kept) {
@@ -246,6 +263,7 @@ std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>&
     }
     FaceSource::Contents contents;
     contents.name = paths.front().stem().string();
+    for (const auto& input : inputs) take_comments(input, contents);
     const io::Input& first = inputs.front();
     const Format format = format_of(first);
     const bool by_format = settings.weld == io::Weld::automatic;

@@ -35,6 +35,7 @@ class FaceSource {
         std::vector<std::string> dropped; ///< dropped contents of the files, for messages; empty: none
         std::uint64_t skipped_faces = 0;  ///< faces with fewer than three corners
         std::string name;                 ///< name of the mesh
+        std::vector<std::shared_ptr<const Document>> documents{}; ///< metadata of the files
         Unit unit = Unit::unknown;
         UpAxis up = UpAxis::unknown;
     };

@@ -25,6 +25,7 @@ io::Bytes file_of(Mesh mesh, const WritePlace& place, const io::Codec& codec,
     Scene scene;
     scene.unit = place.convention.unit;
     scene.up = place.convention.up;
+    scene.documents = place.documents;
     Part& part = scene.parts.emplace_back();
     part.mesh = std::move(mesh);
     part.transform = place.transform;

@@ -17,6 +17,7 @@ struct WritePlace {
     Transform transform;       ///< from cell space to file space
     Vec3 origin;               ///< the origin of GLB coordinates and translation of the node, in cell space
     io::Convention convention; ///< convention of the file's numbers
+    std::vector<std::shared_ptr<const Document>> documents; ///< metadata, which GLB does not get
 };
 
 /// The largest displacement of a file coordinate by rounding to float32. Reads the cells.

@@ -149,8 +149,10 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
         write_tileset(o, settings, flow, outline, report, context);
         return context.report(fields_of<WriteReport>(declare_write_report), &report);
     }
-    const cells::WritePlace place{
-        outline.parts.front().transform, origin_of(o, codec, flow), {outline.unit, outline.up}};
+    const cells::WritePlace place{outline.parts.front().transform,
+                                  origin_of(o, codec, flow),
+                                  {outline.unit, outline.up},
+                                  flow.partition->source().contents().documents};
     if (may_need_full(o, codec, outline.bounds()))
         settings.double_positions = needs_full(
             cells::rounding_of(*flow.partition, outline.parts.front().transform), outline.bounds(), context);
