@@ -1,6 +1,7 @@
 """Commands that people type first: they work, or the message has the text to type."""
 
 import json
+import re
 
 from support import Case, main
 
