@@ -65,7 +65,7 @@ const RegisterMessages io_messages{
      "Put the image in the folder of the file as PNG or JPEG, and export a broken one again. To read "
      "`../wood.png`, allow a common folder with `--asset-root DIR` or `load: {path: ..., asset_root: DIR}`."},
     {"W-LOST",
-     "The format cannot store metadata (title, licence, comments), cameras, lights, contents of extensions, "
+     "The format cannot store metadata (title, licence), cameras, lights, contents of extensions, "
      "or "
      "extras, such as part numbers of 3MF.",
      "Write glTF (.glb) to keep them. PLY, OBJ and OFF keep metadata as comments. Ignore this warning if you "
