@@ -406,7 +406,8 @@ void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool bi
 void keep_asset(Json& asset, const Json& other) {
     const auto from = other.find("asset");
     if (from == other.end() || !from->is_object()) return;
-    if (from->contains("copyright") && !asset.contains("copyright")) asset["copyright"] = (*from)["copyright"];
+    if (from->contains("copyright") && !asset.contains("copyright"))
+        asset["copyright"] = (*from)["copyright"];
     const Json extras = from->value("extras", Json::object());
     if (!asset.contains("extras") && !extras.empty()) asset["extras"] = extras;
     if (asset.contains("extras") && asset["extras"].is_object() && extras.is_object())
