@@ -137,7 +137,11 @@ std::string option_hint(const Command& command, const Arguments& arguments, cons
 std::string hint_for(const Command& command, const Arguments& arguments, const std::string& extra,
                      const CommandLine& line) {
     const auto& words = line.arguments();
-    if (std::find(words.begin(), words.end(), "!") != words.end())
+    const Argument* define = arguments.find("-D");
+    const bool takes_pipeline = define && !define->is_hidden;
+    const bool has_stages = std::find(words.begin(), words.end(), "!") != words.end();
+    if (has_stages && !takes_pipeline) return "to run stages separated by !, use facetmill pipe";
+    if (has_stages)
         return fmt::format("{} needs a pipeline file, and facetmill new FILE.yaml creates one; to run stages "
                            "separated by ! on one input, use facetmill pipe",
                            command.name);
@@ -146,7 +150,7 @@ std::string hint_for(const Command& command, const Arguments& arguments, const s
     if (arguments.find("--input"))
         return fmt::format("give meshes after --input: facetmill {} PIPELINE --input {} ...", command.name,
                            extra);
-    if (arguments.find("-D"))
+    if (takes_pipeline)
         return fmt::format("meshes are params of the pipeline: facetmill {} PIPELINE -D input={}; for many "
                            "meshes use facetmill batch",
                            command.name, extra);
