@@ -3,6 +3,7 @@
 #include "geometry/render/srgb.hpp"
 #include "io/text.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::io::threemf {
@@ -32,7 +33,7 @@ struct Blend {
     Colour colour() const {
         Colour c;
         for (std::size_t i = 0; i < 3; ++i) c.at(i) = srgb_of(static_cast<float>(light.at(i)));
-        c[3] = static_cast<std::uint8_t>(255 * alpha + 0.5);
+        c[3] = static_cast<std::uint8_t>(std::lround(255 * alpha));
         return c;
     }
 };
