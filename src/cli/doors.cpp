@@ -1,9 +1,8 @@
 // facetmill convert, view and fix: built-in pipelines as commands, with the params as options.
 
 #include "cli/pipeline_options.hpp"
+#include "cli/ready_document.hpp"
 #include "cli/save_pipeline.hpp"
-#include "docs/ready.hpp"
-#include "pipeline/document.hpp"
 #include "pipeline/expressions.hpp"
 #include "platform/page_opener.hpp"
 
@@ -21,21 +20,6 @@ struct DoorOptions {
     std::map<std::string, bool> flags{}; ///< params of type bool
     PipelineOptions run;
 };
-
-Value document_of(const char* pipeline) {
-    Problems problems;
-    return pipeline::parse_yaml(std::make_shared<const SourceText>(
-                                    SourceText{pipeline, std::string(docs::ready_pipeline(pipeline)->text)}),
-                                problems);
-}
-
-/// "auto, mm, cm": the choices of a param, as text.
-std::vector<std::string> choices_of(const Value& param) {
-    std::vector<std::string> choices;
-    if (const Value* all = param.find("choices"))
-        for (const Value& one : all->items) choices.push_back(one.text);
-    return choices;
-}
 
 /// Adds the params as options, except the input and the output.
 void add_params(const Value& document, Arguments& arguments, const std::shared_ptr<DoorOptions>& options) {
@@ -77,7 +61,8 @@ int run_door(const char* pipeline, DoorOptions& options, const CommandLine& line
     if (!options.save_to.empty()) settings.others.push_back({options.save_to, line.find("--save"), true});
     const auto plan = plan_of(pipeline, settings, problems);
     if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
-    if (!options.save_to.empty()) save(document_of(pipeline), options.run, options.save_to);
+    if (!options.save_to.empty())
+        save(document_of(*docs::ready_pipeline(pipeline)), options.run, options.save_to);
     confine_to({plan}, options.run, console);
     return run_with_messages(plan, options.run, console, "");
 }
@@ -145,7 +130,7 @@ Command convert_command() {
                 auto options = std::make_shared<DoorOptions>();
                 arguments.add("IN", &options->input, "The mesh file to read, or -.").required();
                 arguments.add("OUT", &options->output, "The file to write.").required();
-                add_params(document_of("convert"), arguments, options);
+                add_params(document_of(*docs::ready_pipeline("convert")), arguments, options);
                 add_common_options(arguments, *options, console);
                 return [=, &console](const Invocation& invocation) {
                     return run_door("convert", *options, invocation.line, console);
@@ -168,7 +153,7 @@ Command view_command() {
                          "The page to write. Default: the name of the mesh, in the working directory.")
                     .followed_by("FILE.html");
                 arguments.add("--no-open", &options->no_open, "Only writes the page.");
-                add_params(document_of("view"), arguments, options);
+                add_params(document_of(*docs::ready_pipeline("view")), arguments, options);
                 add_common_options(arguments, *options, console);
                 return [=, &console](const Invocation& invocation) {
                     return view(*options, invocation.line, console);
@@ -186,7 +171,7 @@ Command fix_command() {
                 arguments.add("IN", &options->input, "The mesh file to read, or -.").required();
                 arguments.add("OUT", &options->output,
                               "The file to write. Default: NAME.repaired.stl in the working directory.");
-                add_params(document_of("repair"), arguments, options);
+                add_params(document_of(*docs::ready_pipeline("repair")), arguments, options);
                 add_common_options(arguments, *options, console);
                 return [=, &console](const Invocation& invocation) {
                     const auto& given = options->run.defines;

@@ -2,9 +2,8 @@
 
 #include "base/text/spelling.hpp"
 #include "cli/command.hpp"
-#include "docs/ready.hpp"
+#include "cli/ready_document.hpp"
 #include "io/outputs/outputs.hpp"
-#include "pipeline/document.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -65,23 +64,15 @@ std::string param_line(const std::string& name, const Value& param) {
         return value && value->is_scalar() ? value->text : std::string();
     };
     const std::string type = param.is_scalar() ? param.text : text("type");
-    const Value* choices = param.find("choices");
     std::string help = text("help");
-    if (choices) {
-        std::vector<std::string> names;
-        for (const Value& choice : choices->items) names.push_back(choice.text);
-        help += fmt::format(" ({})", fmt::join(names, ", "));
-    }
+    if (param.find("choices")) help += fmt::format(" ({})", fmt::join(choices_of(param), ", "));
     const std::string value = param.find("default") ? text("default") : "needed";
     return fmt::format("  {:<12}  {:<7}  {:<8}  {}\n", name, type, value, help);
 }
 
 /// What a built-in pipeline does, and its params with their types and defaults.
 std::string described(const docs::ReadyPipeline& ready) {
-    Problems none;
-    const Value document = pipeline::parse_yaml(
-        std::make_shared<const SourceText>(SourceText{std::string(ready.name), std::string(ready.text)}),
-        none);
+    const Value document = document_of(ready);
     const Value* about = document.find("about");
     std::string text = fmt::format("{}: {}\n", ready.name, about ? about->text : "");
     if (const Value* params = document.find("params"))
