@@ -227,8 +227,7 @@ void simplify_job(const Partition& partition, const SimplifySettings& settings, 
     require_memory(partition, settings, means);
     try {
         Hierarchy(partition, settings, means, transform).run(*means.job);
-    } catch (const Error& error) {
-        if (error.diagnostics().front().id != "E-SCRATCH") throw;
+    } catch (const UnreadableScratch& error) {
         make_cells_due(*means.kept, error.diagnostics().front().message);
     }
 }

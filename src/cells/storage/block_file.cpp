@@ -46,9 +46,10 @@ std::uint64_t digest_of(io::Span bytes) {
 } // namespace
 
 void unreadable_scratch(const fs::path& folder) {
-    throw Error(ErrorKind::output, "E-SCRATCH",
-                fmt::format("temporary data in '{}' differs from the data that was written", folder.string()),
-                "run it again with --scratch DIR on another disk");
+    throw UnreadableScratch(
+        ErrorKind::output, "E-SCRATCH",
+        fmt::format("temporary data in '{}' differs from the data that was written", folder.string()),
+        "run it again with --scratch DIR on another disk");
 }
 
 ScratchFile::ScratchFile(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {

@@ -2,6 +2,7 @@
 // Data on disk: blocks of bytes in an unnamed file, which disappears however the process ends. Kept cells
 // use a named file.
 
+#include "base/error.hpp"
 #include "cells/storage/stream.hpp"
 
 #include <atomic>
@@ -11,6 +12,11 @@ namespace facetmill::cells {
 /// The position of bytes in a BlockFile, and their digest.
 struct Block {
     std::uint64_t offset = 0, size = 0, digest = 0;
+};
+
+/// Data of a folder changed after writing.
+struct UnreadableScratch : Error {
+    using Error::Error;
 };
 
 /// Throws an output error (E-SCRATCH) because data in the folder changed after writing.
