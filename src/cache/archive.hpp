@@ -32,7 +32,10 @@ concept Record = requires(T& record) {
 
 /// The largest value of each enumeration that is stored.
 template <class E>
-struct Last;
+inline constexpr E last = [] {
+    static_assert(sizeof(E) == 0, "specialise it");
+    return E{};
+}();
 
 template <class T>
 concept Number = std::is_arithmetic_v<T>;
@@ -200,7 +203,7 @@ class ByteReader {
     void get(E& value) {
         std::uint8_t byte = 0;
         get(byte);
-        if (byte > static_cast<std::uint8_t>(Last<E>::value)) throw Corrupt();
+        if (byte > static_cast<std::uint8_t>(last<E>)) throw Corrupt();
         value = static_cast<E>(byte);
     }
     void get(std::string& text) {

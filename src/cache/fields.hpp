@@ -73,28 +73,16 @@ struct Members<report::StageRecord> {
 #undef FACETMILL_STORED
 
 template <>
-struct Last<Unit> {
-    static constexpr Unit value = Unit::foot;
-};
+inline constexpr Unit last<Unit> = Unit::foot;
 template <>
-struct Last<UpAxis> {
-    static constexpr UpAxis value = UpAxis::z;
-};
+inline constexpr UpAxis last<UpAxis> = UpAxis::z;
 template <>
-struct Last<Domain> {
-    static constexpr Domain value = Domain::face;
-};
+inline constexpr Domain last<Domain> = Domain::face;
 template <>
-struct Last<Role> {
-    static constexpr Role value = Role::index;
-};
+inline constexpr Role last<Role> = Role::index;
 template <>
-struct Last<Severity> {
-    static constexpr Severity value = Severity::note;
-};
+inline constexpr Severity last<Severity> = Severity::note;
 template <>
-struct Last<AttributeChange::Kind> {
-    static constexpr AttributeChange::Kind value = AttributeChange::Kind::dropped;
-};
+inline constexpr AttributeChange::Kind last<AttributeChange::Kind> = AttributeChange::Kind::dropped;
 
 } // namespace facetmill::cache

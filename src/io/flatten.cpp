@@ -231,6 +231,15 @@ void warn_of_point_materials(Written& written, const Scene& scene, const char* f
                                     "glTF keeps it: write .glb"});
 }
 
+void drop_materials(Written& written, const Scene& scene, const char* format, bool points) {
+    warn_of_textures(written, scene, format);
+    warn_of_colours(written, scene, format);
+    if (points) warn_of_point_materials(written, scene, format);
+    if (!scene.materials.empty())
+        written.changes.push_back({"materials", Domain::face, AttributeChange::Kind::dropped,
+                                   fmt::format("{} has no materials", format)});
+}
+
 void warn_of_parts(Written& written, const Scene& scene, const char* format) {
     std::vector<std::string> names, lines; // files hold lines apart from faces
     for (const auto& part : scene.parts)

@@ -52,6 +52,9 @@ void warn_of_colours(Written& written, const Scene& scene, const char* format);
 /// Warns (W-MATERIAL) of materials on points, and on lines if `lines`, for a format that cannot hold these.
 void warn_of_point_materials(Written& written, const Scene& scene, const char* format, bool lines = true);
 
+/// Warns of materials, with the warnings above, and lists them as dropped, for a format without materials.
+void drop_materials(Written& written, const Scene& scene, const char* format, bool points = true);
+
 /// Warns (W-PARTS) that several parts are merged into a single mesh without names, for a format of a single
 /// mesh.
 void warn_of_parts(Written& written, const Scene& scene, const char* format);

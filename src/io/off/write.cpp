@@ -126,12 +126,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     leave_documents(written, scene, "OFF", {"metadata"});
     warn_of_dropped(written, scene, "OFF", false);
     warn_of_parts(written, scene, "OFF");
-    warn_of_textures(written, scene, "OFF");
-    warn_of_colours(written, scene, "OFF");
-    warn_of_point_materials(written, scene, "OFF");
-    if (!scene.materials.empty())
-        written.changes.push_back(
-            {"materials", Domain::face, AttributeChange::Kind::dropped, "OFF has no materials"});
+    drop_materials(written, scene, "OFF");
     written.files.push_back({settings.title + ".off", std::move(bytes)});
     return written;
 }

@@ -370,12 +370,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     warn_of_dropped(written, scene, "PLY");
     if (!settings.ascii) note_polygons(written, smallest, largest);
     warn_of_parts(written, scene, "PLY");
-    warn_of_textures(written, scene, "PLY");
-    warn_of_colours(written, scene, "PLY");
-    warn_of_point_materials(written, scene, "PLY");
-    if (!scene.materials.empty())
-        written.changes.push_back(
-            {"materials", Domain::face, AttributeChange::Kind::dropped, "PLY has no materials"});
+    drop_materials(written, scene, "PLY");
     Bytes bytes;
     append(bytes, header_of(l, scene));
     if (settings.ascii)

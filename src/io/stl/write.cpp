@@ -138,15 +138,11 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
     }
     leave_documents(written, scene, "STL");
     warn_of_dropped(written, scene, "STL", false);
-    warn_of_textures(written, scene, "STL");
-    warn_of_colours(written, scene, "STL");
+    drop_materials(written, scene, "STL", false);
     if (settings.ascii)
         warn_of_names(written, scene, "STL", false);
     else
         warn_of_parts(written, scene, "STL");
-    if (!scene.materials.empty())
-        written.changes.push_back(
-            {"materials", Domain::face, AttributeChange::Kind::dropped, "STL has no materials"});
 }
 
 } // namespace

@@ -168,12 +168,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     }
     leave_documents(written, scene, "Draco");
     warn_of_dropped(written, scene, "Draco");
-    warn_of_textures(written, scene, "Draco");
-    warn_of_colours(written, scene, "Draco");
-    warn_of_point_materials(written, scene, "Draco");
-    if (!scene.materials.empty())
-        written.changes.push_back(
-            {"materials", Domain::face, AttributeChange::Kind::dropped, "Draco has no materials"});
+    drop_materials(written, scene, "Draco");
     const std::string name = (settings.title.empty() ? "mesh" : settings.title) + ".drc";
     if (mesh.face_count() == 0) {
         written.files.push_back({name, encode_draco_points(input, settings.draco)});
