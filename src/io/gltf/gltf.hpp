@@ -36,15 +36,11 @@ class MaterialContents {
 /// dropped by a stage.
 [[nodiscard]] bool is_without_meshes(const Scene& scene);
 
-/// [parts] true if an animation of its document drives its node, or an ancestor. Such a node must keep its
-/// transform, which is only valid for one moment. Morph weights do not count. Throws malformed when the
-/// document's nodes or animations are invalid.
-[[nodiscard]] std::vector<bool> animated_parts(const Scene& scene);
-
 /// How viewers show a part of a document. Parts without a document are shown as they are.
 struct PartView {
-    bool animated = false;    ///< an animation moves its node or an ancestor
-    bool hidden = false;      ///< outside the scene that viewers show, or invisible (KHR_node_visibility)
+    bool animated =
+        false;           ///< an animation moves or shows its node or an ancestor; morph weights do not count
+    bool hidden = false; ///< outside the scene that viewers show, or invisible (KHR_node_visibility)
     bool lower_level = false; ///< a level of detail that replaces another node (MSFT_lod), or below one
     bool has_levels = false;  ///< its node or an ancestor has such levels
     bool instanced = false;   ///< several instances (EXT_mesh_gpu_instancing)

@@ -274,29 +274,6 @@ Json matrix(const Transform& t) {
 
 namespace facetmill::io {
 
-namespace {
-
-/// True if a document may have a member of this name: a text without escapes contains the name literally.
-bool may_have(const std::string& json, const char* name) {
-    return json.find(name) != std::string::npos || json.find('\\') != std::string::npos;
-}
-
-/// The animated nodes of a document, and all their descendants.
-std::set<int> moving_nodes(const Document& document) {
-    if (!may_have(document.json, "animations")) return {};
-    Json json = gltf::parse_document(document.json);
-    const ScopedDestroy after(json);
-    const auto animated = gltf::animated_nodes(json);
-    std::set<int> moving;
-    if (animated.empty()) return moving;
-    const auto frames = gltf::node_frames(json);
-    for (const std::size_t n : gltf::parents_first(frames))
-        if (animated.contains(n) || moving.contains(frames[n].parent)) moving.insert(static_cast<int>(n));
-    return moving;
-}
-
-} // namespace
-
 bool is_without_meshes(const Scene& scene) {
     if (!scene.parts.empty() || scene.documents.empty()) return false;
     return std::all_of(scene.documents.begin(), scene.documents.end(), [](const auto& document) {
@@ -304,16 +281,6 @@ bool is_without_meshes(const Scene& scene) {
         const ScopedDestroy after(json);
         return gltf::placements(json, gltf::node_frames(json)).empty();
     });
-}
-
-std::vector<bool> animated_parts(const Scene& scene) {
-    std::vector<std::set<int>> moving;
-    for (const auto& document : scene.documents) moving.push_back(moving_nodes(*document));
-    std::vector<bool> animated;
-    for (const Part& part : scene.parts)
-        animated.push_back(part.document >= 0 && part.node >= 0 &&
-                           moving.at(static_cast<std::size_t>(part.document)).contains(part.node));
-    return animated;
 }
 
 } // namespace facetmill::io

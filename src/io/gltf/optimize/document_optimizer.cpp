@@ -287,17 +287,18 @@ std::shared_ptr<const Document> DocumentOptimizer::finish(const std::shared_ptr<
 }
 
 std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>& documents) {
-    std::vector<bool> bound = animated_parts(scene);
+    const std::vector<PartView> views = part_views(scene);
+    std::vector<bool> bound(views.size());
     std::vector<std::set<std::size_t>> nodes; // [documents] bound nodes
     std::vector<std::set<std::size_t>> meshes;
     for (DocumentOptimizer& document : documents) {
         nodes.push_back(bound_nodes(document.json_));
         meshes.push_back(bound_meshes(document.json_));
     }
-    for (std::size_t i = 0; i < bound.size(); ++i) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
         const Part& part = scene.parts[i];
         const auto d = static_cast<std::size_t>(part.document);
-        bound[i] = bound[i] || part.skinned ||
+        bound[i] = views[i].animated || part.skinned ||
                    (part.document >= 0 && part.node >= 0 &&
                     nodes[d].contains(static_cast<std::size_t>(part.node))) ||
                    (part.document >= 0 && part.source_mesh >= 0 &&
