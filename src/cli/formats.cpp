@@ -24,25 +24,34 @@ std::string directions(const io::Codec& codec) {
     return fmt::format("{}{}", codec.read ? "r" : "-", codec.write ? "w" : "-");
 }
 
-const char* draco_word(io::Capabilities::Draco draco) {
-    switch (draco) {
-    case io::Capabilities::Draco::never:
-        return "never";
-    case io::Capabilities::Draco::on_request:
-        return "on request";
-    case io::Capabilities::Draco::always:
-        break;
-    }
-    return "always";
+const char* draco_word(const io::Capabilities& can) {
+    return can.always_draco ? "always" : can.honours("draco") ? "on request" : "never";
+}
+
+std::vector<std::pair<std::string, bool>> abilities(const io::Capabilities& can) {
+    std::vector<std::pair<std::string, bool>> all{{"polygons", can.polygons},
+                                                  {"shares_vertices", can.shares_vertices},
+                                                  {"normals", can.normals},
+                                                  {"transforms", can.transforms},
+                                                  {"skins", can.skins},
+                                                  {"points", can.points},
+                                                  {"points_and_faces", can.points_and_faces},
+                                                  {"lines", can.lines},
+                                                  {"documents", can.documents},
+                                                  {"text", can.honours("ascii")},
+                                                  {"big_endian", can.honours("big_endian")},
+                                                  {"full_precision", can.full_precision}};
+    for (const char* option : {"mesh_manifold", "lods", "textures", "quantize", "meshopt", "order", "tiles"})
+        all.emplace_back(option, can.honours(option));
+    return all;
 }
 
 /// "in m, y up; polygons, text, draco on request; attributes: all".
 std::string abilities_text(const io::Codec& codec) {
     std::vector<std::string> words;
-    for (const auto& capability : io::capabilities())
-        if (codec.can.*capability.flag) words.emplace_back(capability.name);
-    if (codec.can.draco != io::Capabilities::Draco::never)
-        words.push_back(fmt::format("draco {}", draco_word(codec.can.draco)));
+    for (const auto& [name, has] : abilities(codec.can))
+        if (has) words.push_back(name);
+    if (codec.can.honours("draco")) words.push_back(fmt::format("draco {}", draco_word(codec.can)));
     const std::string unit =
         codec.unit == Unit::unknown ? "no unit" : "in " + std::string(to_string(codec.unit));
     const std::string up = codec.up == UpAxis::unknown ? "" : fmt::format(", {} up", to_string(codec.up));
@@ -51,8 +60,8 @@ std::string abilities_text(const io::Codec& codec) {
 
 Json format_json(const io::Codec& codec) {
     Json can = Json::object();
-    for (const auto& capability : io::capabilities()) can[capability.name] = codec.can.*capability.flag;
-    can["draco"] = draco_word(codec.can.draco);
+    for (const auto& [name, has] : abilities(codec.can)) can[name] = has;
+    can["draco"] = draco_word(codec.can);
     can["attributes"] = codec.can.attributes;
     can["companion"] = codec.can.companion.empty() ? Json() : Json(codec.can.companion);
     return {{"name", codec.name},

@@ -192,29 +192,8 @@ std::vector<std::string> names_of_writers() {
     return names_where([](const Codec& c) { return c.write != nullptr; });
 }
 
-const std::vector<Capability>& capabilities() {
-    static const std::vector<Capability> all{
-        {"polygons", &Capabilities::polygons},
-        {"shares_vertices", &Capabilities::shares_vertices},
-        {"normals", &Capabilities::normals},
-        {"transforms", &Capabilities::transforms},
-        {"skins", &Capabilities::skins},
-        {"points", &Capabilities::points},
-        {"points_and_faces", &Capabilities::points_and_faces},
-        {"lines", &Capabilities::lines},
-        {"documents", &Capabilities::documents},
-        {"text", &Capabilities::text},
-        {"big_endian", &Capabilities::big_endian},
-        {"full_precision", &Capabilities::full_precision},
-        {"mesh_manifold", &Capabilities::mesh_manifold},
-        {"lods", &Capabilities::lods},
-        {"textures", &Capabilities::textures},
-        {"quantize", &Capabilities::quantize},
-        {"meshopt", &Capabilities::meshopt},
-        {"order", &Capabilities::order},
-        {"tiles", &Capabilities::tiles},
-    };
-    return all;
+bool Capabilities::honours(std::string_view option) const {
+    return std::any_of(options.begin(), options.end(), [&](const auto& o) { return o.name == option; });
 }
 
 FileHeader file_header(const Input& file, const ReadSettings& settings, const Codec* forced) {

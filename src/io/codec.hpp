@@ -58,10 +58,20 @@ struct ReadSettings {
     const Decodings* decoded = nullptr; ///< decoded data to use instead of decoding again
 };
 
+/// The extent that position bits divide.
+enum class Grid { scene, mesh, even };
+
+/// Bits of positions for Draco and quantize, or the usual number.
+inline int bits_or_usual(const std::optional<std::int64_t>& bits) {
+    return static_cast<int>(bits.value_or(14));
+}
+
 struct DracoSettings {
     bool on = false;
-    int position_bits = 14, normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12;
-    int speed = 0;                ///< 0 (smallest) to 10 (fastest)
+    Grid grid = Grid::even;
+    std::optional<std::int64_t> position_bits;
+    std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12;
+    std::int64_t speed = 0;       ///< 0 (smallest) to 10 (fastest)
     bool keep_degenerate = false; ///< keep faces that repeat a vertex, in a separate primitive
     bool keep_decoded = false;    ///< fill Written::decoded for the read-back
 };
@@ -69,8 +79,11 @@ struct DracoSettings {
 /// KHR_mesh_quantization: attributes as small integers on a grid. Integer attributes stay unchanged.
 struct QuantizeSettings {
     bool on = false;
-    int position_bits = 14, normal_bits = 8, uv_bits = 12, colour_bits = 8;
-    int weight_bits = 8; ///< 8: a byte, more: two bytes
+    bool given = false; ///< the user decided whether it is on; otherwise meshopt does
+    Grid grid = Grid::even;
+    std::optional<std::int64_t> position_bits;
+    std::int64_t normal_bits = 8, uv_bits = 12, colour_bits = 8;
+    std::int64_t weight_bits = 8; ///< 8: a byte, more: two bytes
 };
 
 /// EXT_meshopt_compression (streams of version 0) or KHR_meshopt_compression (of version 1).
@@ -84,9 +97,15 @@ struct MeshoptSettings {
 
 /// A tree of tiles, from few triangles for the whole to all triangles.
 struct TileSettings {
-    std::size_t faces = 20000; ///< maximum per tile, except where borders need more
-    bool implicit = false;     ///< implicit tiling, otherwise explicit
-    bool given_bits = false;   ///< positions must not get more bits than Draco or quantize ask for
+    enum class Kind { three_d };
+
+    bool on = false;
+    Kind format = Kind::three_d;
+    std::int64_t faces = 20000; ///< maximum per tile, except where borders need more
+    bool implicit = false;      ///< implicit tiling, otherwise explicit
+    bool given_bits = false;    ///< positions must not get more bits than Draco or quantize ask for
+
+    std::size_t most_faces() const { return static_cast<std::size_t>(faces); }
 };
 
 /// The order of triangles and vertices of glTF, without Draco.
@@ -138,17 +157,24 @@ struct WriteSettings {
     Textures textures = Textures::automatic; ///< glTF, OBJ
     std::filesystem::path directory{};       ///< the output's directory, for Textures::reference
 
+    std::optional<Box> drawn{}; ///< drawn_bounds of the scene, if they are known
+
     std::vector<int> part_bits{}; ///< position bits of each part; empty: the bits of Draco or quantize
 
     std::vector<Lattice> lattices{}; ///< position grid of each part, within its bits; empty: no grids
     bool interleave = false; ///< glTF, without Draco and meshopt: interleave the attributes of a vertex
-    bool names = true;       ///< glTF: also write names that only people use
+    bool drop_names = false; ///< glTF: omit names that only people use
+
+    /// The position bits that Draco or quantize asks for. Call it only if one of them is on.
+    int position_bits() const {
+        return bits_or_usual(draco.on ? draco.position_bits : quantize.position_bits);
+    }
 
     /// The bits of the grid for positions of a part. The longest side has 2^bits - 1 steps. 0: no grid.
     int grid_bits(std::size_t part) const {
         if (!draco.on && !quantize.on) return 0;
         if (part < part_bits.size()) return part_bits[part];
-        return draco.on ? draco.position_bits : quantize.position_bits;
+        return position_bits();
     }
     /// The grid of a part; step 0 if bounds and bits define the grid.
     Lattice lattice(std::size_t part) const {
@@ -179,45 +205,36 @@ struct Written {
     std::shared_ptr<const Decodings> decoded{};
 };
 
-/// The abilities of a format and its write options. `write` refuses options by these flags, and `facetmill
-/// formats` prints them. No other code asks for a format by its name.
-struct Capabilities {
-    enum class Draco { never, on_request, always };
+/// An option of `write` that not all formats honour.
+struct WriteOption {
+    std::string name;
+    std::function<bool(const WriteSettings&)> asked; ///< its value has an effect
+};
 
+/// The abilities of a format. `write` refuses scenes and options by them, and `facetmill formats` prints
+/// them. No other code asks for a format by its name.
+struct Capabilities {
     bool polygons = false;       ///< faces of any size, otherwise only triangles
     bool shares_vertices = true; ///< faces share vertices, otherwise a reader must weld them
     bool normals = true;
     bool transforms =
         false; ///< parts keep their transforms and names, otherwise all parts are in world space
     bool skins = false;
-    bool points = false;           ///< scenes without faces: point clouds
-    bool points_and_faces = false; ///< parts of points beside parts with faces
-    bool lines = false;            ///< parts of lines
-    bool documents = false;        ///< scenes without meshes: nodes, cameras, animations
-    bool text = false;             ///< WriteSettings::ascii
-    bool big_endian = false;       ///< WriteSettings::big_endian
-    bool full_precision = false;   ///< WriteSettings::double_positions
-    bool mesh_manifold = false;    ///< WriteSettings::mesh_manifold
-    bool lods = false;             ///< WriteSettings::lods
-    bool textures = false;         ///< WriteSettings::textures
-    bool quantize = false;         ///< WriteSettings::quantize
-    bool meshopt = false;          ///< WriteSettings::meshopt
-    bool order = false;            ///< WriteSettings::order
-    bool tiles = false;            ///< WriteSettings::tiles
-    Draco draco = Draco::never;    ///< WriteSettings::draco
-    std::string attributes{};      ///< the attributes that it holds, as text
-    std::string companion{};       ///< the suffix of a required neighbour: ".bin"
-    std::string library{};         ///< the suffix of the neighbour with the materials: ".mtl"
+    bool points = false;                ///< scenes without faces: point clouds
+    bool points_and_faces = false;      ///< parts of points beside parts with faces
+    bool lines = false;                 ///< parts of lines
+    bool documents = false;             ///< scenes without meshes: nodes, cameras, animations
+    bool full_precision = false;        ///< WriteSettings::double_positions
+    std::vector<WriteOption> options{}; ///< the options of `write` that it honours
+    bool always_draco = false;          ///< cannot be written without Draco
+    std::string attributes{};           ///< the attributes that it holds, as text
+    std::string companion{};            ///< the suffix of a required neighbour: ".bin"
+    std::string library{};              ///< the suffix of the neighbour with the materials: ".mtl"
     bool copies_images =
         false; ///< image files stay separate files next to it, unless Textures overrides this
-};
 
-/// A capability flag with its name.
-struct Capability {
-    const char* name;
-    bool Capabilities::*flag;
+    bool honours(std::string_view option) const;
 };
-const std::vector<Capability>& capabilities();
 
 /// An image that a document names as a file.
 struct NamedImage {

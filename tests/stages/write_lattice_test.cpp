@@ -32,8 +32,8 @@ Scene metres() {
 write_stage::EvenGrid grid_of(const Scene& scene, int bits = 14) {
     const std::vector<int> usual(scene.parts.size(), 12);
     const auto views = io::part_views(scene);
-    return write_stage::even_grid(scene, write_stage::parts_sharing_grids(scene, views), usual, {bits, bits},
-                                  views);
+    return write_stage::even_grid(scene, write_stage::parts_sharing_grids(scene, views), usual,
+                                  {io::drawn_bounds(scene, views).longest_side(), bits, bits}, views);
 }
 
 /// The file after reading it back.
@@ -150,8 +150,8 @@ TEST_CASE("one mesh has one grid, and what moves or is turned its own", "[stages
     const std::vector<int> usual{12, 12, 12, 11};
     auto views = io::part_views(scene);
     views[3].animated = true;
-    const auto grid =
-        write_stage::even_grid(scene, write_stage::parts_sharing_grids(scene, views), usual, {14, 14}, views);
+    const auto grid = write_stage::even_grid(scene, write_stage::parts_sharing_grids(scene, views), usual,
+                                             {io::drawn_bounds(scene, views).longest_side(), 14, 14}, views);
     CHECK(grid.lattices[0].step == grid.lattices[1].step);
     CHECK(grid.lattices[1].step * 4 < 5.2 / 16383 * 1.001); // the larger one's
     CHECK(grid.lattices[2].origin == Vec3{0, 0, 0});

@@ -56,7 +56,7 @@ class TileMaker {
               const CellResources& means, const std::function<void(const io::OutputFile&)>& put)
         : partition_(partition), transform_(transform), settings_(io::tileset::settings_of_tiles(settings)),
           means_(means), put_(put),
-          hierarchy_nodes_(hierarchy_nodes_of(partition, children_of_tile * settings.tiles.faces)),
+          hierarchy_nodes_(hierarchy_nodes_of(partition, children_of_tile * settings.tiles.most_faces())),
           left_(hierarchy_nodes_, means, false), names_(hierarchy_nodes_.size()),
           tiles_(hierarchy_nodes_.size()) {
         for (std::size_t s = hierarchy_nodes_.size(); s-- > 0;)
@@ -162,7 +162,7 @@ class TileMaker {
     void settle_cell(std::size_t station) {
         Cell cell = whole(hierarchy_nodes_[station]);
         std::vector<PyramidTile> pyramid =
-            make_pyramid(cell.mesh, {settings_.tiles.faces, frame_.step}, held_of(cell));
+            make_pyramid(cell.mesh, {settings_.tiles.most_faces(), frame_.step}, held_of(cell));
         cell.mesh = {};
         left_.put(station, reduced(pyramid.front().mesh, pyramid.front().numbers, cell));
         cell = {};
@@ -180,7 +180,7 @@ class TileMaker {
             error = std::max(error, tiles_[child].front().error);
         const Cell cell = left_.joined_at(station, partition_.tree());
         CoarserTile coarser =
-            coarser_tile(cell.mesh, held_of(cell), error, {settings_.tiles.faces, frame_.step});
+            coarser_tile(cell.mesh, held_of(cell), error, {settings_.tiles.most_faces(), frame_.step});
         left_.put(station, reduced(coarser.mesh, coarser.sources, cell));
         tiles_[station] = {{names_[station], {}, coarser.error, {}, {}, 0, 0, {}}};
         encode(std::move(coarser.mesh), tiles_[station].front());
@@ -249,7 +249,7 @@ std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile) {
 WrittenTiles write_tiles(const Partition& partition, const Transform& transform,
                          const io::WriteSettings& settings, const CellResources& means,
                          const std::function<void(const io::OutputFile&)>& put) {
-    const std::uint64_t needed = memory_for_tiles(partition.faces(), settings.tiles.faces);
+    const std::uint64_t needed = memory_for_tiles(partition.faces(), settings.tiles.most_faces());
     if (needed > means.memory)
         throw out_of_memory(fmt::format("tiles of {} triangles need at least {} in cells, --memory gives {}",
                                         grouped(settings.tiles.faces), sized(needed), sized(means.memory)),

@@ -21,6 +21,7 @@
 #include "io/gltf/read/mesh.hpp"
 #include "io/gltf/write/patch.hpp"
 #include "io/images/image_files.hpp"
+#include "io/write_options.hpp"
 #include "parallel/memory.hpp"
 
 #include <array>
@@ -514,10 +515,13 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Bytes buffer = builder.finish(written.warnings);
     drop_nulls(builder.json());
     // Without meshes, names are what animations and programs find nodes by.
-    if (!settings.names && !scene.parts.empty()) drop_names(builder.json());
+    if (settings.drop_names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
     if (shortens)
-        shorten(builder.json(), settings.whole_positions ? Box{} : drawn_bounds(scene, part_views(scene)),
+        shorten(builder.json(),
+                settings.whole_positions ? Box{}
+                : settings.drawn         ? *settings.drawn
+                                         : drawn_bounds(scene, part_views(scene)),
                 worlds);
     add_main_files(patch, stem, std::move(buffer), binary);
     for (auto& image : images) written.files.push_back(std::move(image));
@@ -547,19 +551,17 @@ int sniff_gltf(Span bytes) {
 /// companion: the buffer file of a text document, whose images are also separate files.
 Capabilities abilities(std::string companion) {
     const bool copies = !companion.empty();
+    std::vector<WriteOption> options = gltf_mesh_options();
+    options.insert(options.end(), {{"mesh_manifold", &WriteSettings::mesh_manifold},
+                                   {"lods", &WriteSettings::lods},
+                                   {"drop_names", &WriteSettings::drop_names}});
     return {.transforms = true,
             .skins = true,
             .points = true,
             .points_and_faces = true,
             .lines = true,
             .documents = true,
-            .mesh_manifold = true,
-            .lods = true,
-            .textures = true,
-            .quantize = true,
-            .meshopt = true,
-            .order = true,
-            .draco = Capabilities::Draco::on_request,
+            .options = std::move(options),
             .attributes = "all at vertices, with materials and textures",
             .companion = std::move(companion),
             .copies_images = copies};

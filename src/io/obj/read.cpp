@@ -7,6 +7,7 @@
 #include "io/obj/materials.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
+#include "io/write_options.hpp"
 #include "mesh/face.hpp"
 #include "parallel/parallel.hpp"
 
@@ -648,7 +649,7 @@ const RegisterCodec codec({
             .points_and_faces = true,
             .lines = true,
             .full_precision = true,
-            .textures = true,
+            .options = {textures_option()},
             .attributes =
                 "texture points and normals by corner, colours of vertices, materials with textures",
             .library = ".mtl",

@@ -6,6 +6,7 @@
 #include "io/ply/table.hpp"
 #include "io/ply/textures.hpp"
 #include "io/stated.hpp"
+#include "io/write_options.hpp"
 
 #include <algorithm>
 
@@ -56,9 +57,8 @@ const RegisterCodec codec({
             .points = true,
             .points_and_faces = true,
             .lines = true,
-            .text = true,
-            .big_endian = true,
             .full_precision = true,
+            .options = {{"ascii", &WriteSettings::ascii}, {"big_endian", &WriteSettings::big_endian}},
             .attributes = "all, one value at a vertex"},
     .sniff =
         [](Span bytes) {
@@ -88,3 +88,10 @@ const RegisterCodec codec({
 } // namespace
 
 } // namespace facetmill::io::ply
+
+void facetmill::io::declare_encoding(Declare<WriteSettings>& d) {
+    d.option("ascii", &WriteSettings::ascii, "Writes PLY and STL as text instead of binary.")
+        .also_called("binary", "(ascii: false), which is the default");
+    d.option("big_endian", &WriteSettings::big_endian,
+             "Writes binary PLY with the most significant byte first.");
+}

@@ -352,7 +352,7 @@ const RegisterCodec codec({
     .extensions = {"stl"},
     .can = {.shares_vertices = false,
             .normals = false,
-            .text = true,
+            .options = {{"ascii", &WriteSettings::ascii}},
             .attributes = "colours of faces, in binary files"},
     .sniff =
         [](Span bytes) {

@@ -47,7 +47,7 @@ TilesetFrame usual_frame(const Box& box, const WriteSettings& settings) {
         reach = std::max({reach, box.max[axis] - frame.origin[axis], frame.origin[axis] - box.min[axis]});
     frame.step = frame.finest = power_below(reach) / (std::int64_t{1} << (float_bits - 1));
     if (!settings.draco.on && !settings.quantize.on) return frame;
-    const int bits = settings.draco.on ? settings.draco.position_bits : settings.quantize.position_bits;
+    const int bits = settings.position_bits();
     const double steps = static_cast<double>((std::int64_t{1} << bits) - 1);
     frame.step = std::max(frame.finest, power_below(box.longest_side() / steps));
     if (settings.tiles.given_bits) frame.finest = frame.step;

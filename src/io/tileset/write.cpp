@@ -92,7 +92,7 @@ class TilesetWriter {
         if (auto warning = warning_of_place(frame)) written_.warnings.push_back(std::move(*warning));
         put_into_frame(mesh.positions, frame);
         steps.next();
-        std::vector<PyramidTile> pyramid = make_pyramid(mesh, {settings_.tiles.faces, frame.step});
+        std::vector<PyramidTile> pyramid = make_pyramid(mesh, {settings_.tiles.most_faces(), frame.step});
         mesh = {};
         steps.next();
         std::vector<TreeTile> tiles(pyramid.size());

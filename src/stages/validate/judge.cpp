@@ -76,7 +76,7 @@ class Judge {
 
     /// Judges a file of the current scene. Returns false if the file does not hold all that is to be judged.
     bool judge_file(const WrittenScene& file, const Scene& scene) {
-        if (io::codec_named(file.format)->can.tiles) { // levels of detail repeat the surface
+        if (io::codec_named(file.format)->can.honours("tiles")) { // levels of detail repeat the surface
             judge_limits_of(file, scene);
             return false;
         }

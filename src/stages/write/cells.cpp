@@ -133,7 +133,7 @@ std::optional<std::string> why_not_on_cells(const WriteOptions& o) {
     if (o.normals != NormalKind::keep || o.tangents != Tangents::keep)
         return "normals and tangents need the whole mesh in memory";
     if (o.origin.kind == OriginOption::Kind::point) return "in cells, origin must be auto or keep";
-    if (codec->can.tiles) return {};
+    if (codec->can.honours("tiles")) return {};
     return cells::why_not_written(*codec, settings_of(o, *codec, o.path.text));
 }
 
@@ -144,8 +144,8 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
     to_convention(outline, o, codec, context, report);
     const std::filesystem::path target = context.places().output(o.path.text);
     io::WriteSettings settings = settings_of(o, codec, target);
-    if (codec.can.tiles) {
-        settings.tiles.given_bits = bits_are_given(settings, o);
+    if (codec.can.honours("tiles")) {
+        settings.tiles.given_bits = bits_are_given(settings);
         write_tileset(o, settings, flow, outline, report, context);
         return context.report(fields_of<WriteReport>(declare_write_report), &report);
     }

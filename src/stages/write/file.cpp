@@ -38,9 +38,9 @@ Mesh in_one(const Scene& scene) {
 /// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
 /// the longest side of what is drawn, in the largest pose. The minimum is 10 bits, about a thousandth of the
 /// part, or `bits` if fewer.
-std::vector<int> bits_of_scene(const Scene& scene, const std::vector<io::PartView>& views, int bits) {
+std::vector<int> bits_of_scene(const Scene& scene, const std::vector<io::PartView>& views, double whole,
+                               int bits) {
     constexpr int fewest = 10;
-    const double whole = io::drawn_bounds(scene, views).longest_side();
     std::vector<int> all;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const double own = scene.parts[i].mesh.bounds().longest_side() * greatest_stretch(views[i].largest);
@@ -71,10 +71,10 @@ void as_shared(std::vector<int>& bits, const DistinctParts& shapes) {
     for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = bits[shapes.first[i]];
 }
 
-std::string why(int usual, Grid grid, int limit, bool enough) {
+std::string why(int usual, io::Grid grid, int limit, bool enough) {
     if (enough)
         return fmt::format("the smallest number from {}{} that keeps vertices distinct", usual,
-                           grid == Grid::mesh ? "" : " for the size of the scene");
+                           grid == io::Grid::mesh ? "" : " for the size of the scene");
     return fmt::format("{} bits would not keep all vertices distinct", limit);
 }
 
@@ -85,10 +85,10 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
                                         : std::string("moved points onto lines of others");
     if (settings.draco.on && back.grid_step >= back.float_step)
         return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
-                           settings.draco.position_bits, what);
+                           settings.position_bits(), what);
     if (settings.quantize.on && back.grid_step >= back.float_step)
         return fmt::format("the grid of {} bits {}: use more bits of quantize.position, or no quantize",
-                           settings.quantize.position_bits, what);
+                           settings.position_bits(), what);
     if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: use precision: full to keep all bits", what);
     return fmt::format("the 32-bit floats of {} {}: put clean: {{precision: single, self_intersections: "
@@ -230,32 +230,31 @@ bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_mat
     return true;
 }
 
-bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o) {
-    return s.draco.on ? o.draco && o.draco->position_bits : o.quantize && o.quantize->position;
+bool bits_are_given(const io::WriteSettings& s) {
+    return (s.draco.on ? s.draco.position_bits : s.quantize.position_bits).has_value();
 }
 
-void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
-                 WriteReport& report) {
+void choose_bits(io::WriteSettings& s, const io::Codec& codec, const Scene& scene, WriteReport& report) {
     if ((!s.draco.on && !s.quantize.on) || scene.parts.empty()) return;
-    const int usual = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
-    const bool given = bits_are_given(s, o);
-    const Grid grid = s.draco.on   ? o.draco ? o.draco->grid : Grid::even
-                      : o.quantize ? o.quantize->grid
-                                   : Grid::even;
+    const int usual = s.position_bits();
+    const bool given = bits_are_given(s);
+    const io::Grid grid = s.draco.on ? s.draco.grid : s.quantize.grid;
     const std::optional<int> limit = given ? std::nullopt : std::optional(s.draco.on ? 24 : 16);
     s.tiles.given_bits = given;
-    if (codec.can.tiles) return; // tilesets choose a common grid: io/tileset/frame.hpp
+    if (codec.can.honours("tiles")) return; // tilesets choose a common grid: io/tileset/frame.hpp
     bool enough = true;
     if (codec.can.transforms) {
         const std::vector<io::PartView> views = io::part_views(scene);
-        s.part_bits = grid == Grid::mesh ? std::vector<int>(scene.parts.size(), usual)
-                                         : bits_of_scene(scene, views, usual);
+        s.drawn = io::drawn_bounds(scene, views);
+        const double whole = s.drawn->longest_side();
+        s.part_bits = grid == io::Grid::mesh ? std::vector<int>(scene.parts.size(), usual)
+                                             : bits_of_scene(scene, views, whole, usual);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             enough &= keep_distinct(s.part_bits[i], scene.parts[i].mesh, usual, limit);
         const DistinctParts shapes = parts_sharing_grids(scene, views);
         as_shared(s.part_bits, shapes);
-        if (grid == Grid::even) {
-            const BitLimits limits{usual, limit.value_or(usual), s.draco.on};
+        if (grid == io::Grid::even) {
+            const BitLimits limits{whole, usual, limit.value_or(usual), s.draco.on};
             EvenGrid even = even_grid(scene, shapes, s.part_bits, limits, views);
             s.part_bits = std::move(even.bits);
             s.lattices = std::move(even.lattices);

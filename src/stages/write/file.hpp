@@ -42,12 +42,11 @@ bool give_tangents(Part& part, const std::vector<std::optional<int>>& uvs_of_mat
                    Context& context);
 
 /// Whether the user gave the position bits for a file with a grid.
-bool bits_are_given(const io::WriteSettings& s, const WriteOptions& o);
+bool bits_are_given(const io::WriteSettings& s);
 
 /// Chooses the position bits per part for a file with a grid (Draco, quantize). The given or usual bits
 /// apply to the scene or to each mesh. Bits that were not given grow until vertices stay distinct.
-void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
-                 WriteReport& report);
+void choose_bits(io::WriteSettings& s, const io::Codec& codec, const Scene& scene, WriteReport& report);
 
 /// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go
 /// into the same folder. Warns if the file read back is less sound than the scene. written: it has a file.

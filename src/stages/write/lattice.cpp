@@ -21,8 +21,8 @@ double steps_of(int bits) { return std::ldexp(1.0, bits) - 1; }
 
 /// The step of the scene's grid: longest side / (2^bits - 1), made 1e-4 to 2e-4 longer so that the number of
 /// steps fits. It has five digits, so that grid coordinates are short too.
-double step_of_scene(const Box& whole, int bits) {
-    const double step = whole.longest_side() / steps_of(bits) * (1 + 2e-4);
+double step_of_scene(double whole, int bits) {
+    const double step = whole / steps_of(bits) * (1 + 2e-4);
     return parse_real(fmt::format("{:.4e}", step)).value_or(step);
 }
 
@@ -155,7 +155,7 @@ EvenGrid even_grid(const Scene& scene, const DistinctParts& shapes, const std::v
                    const BitLimits& limits, const std::vector<io::PartView>& views) {
     EvenGrid grid{std::vector<io::Lattice>(scene.parts.size()), usual};
     const Box world = scene.bounds();
-    const double whole = step_of_scene(io::drawn_bounds(scene, views), limits.usual);
+    const double whole = step_of_scene(limits.whole, limits.usual);
     if (scene.parts.size() < 2 || !(whole > 0) || !std::isfinite(whole)) return grid;
     std::vector<bool> animated(scene.parts.size());
     for (std::size_t i = 0; i < animated.size(); ++i) animated[i] = views[i].animated;

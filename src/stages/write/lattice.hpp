@@ -20,12 +20,13 @@ struct EvenGrid {
 [[nodiscard]] DistinctParts parts_sharing_grids(const Scene& scene, const std::vector<io::PartView>& views);
 
 struct BitLimits {
-    int usual = 14;     ///< divide the scene's longest side
+    double whole = 0;   ///< the longest side of what is drawn (drawn_bounds)
+    int usual = 14;     ///< divide it
     int most = 16;      ///< of a part
     bool draco = false; ///< stores each part's origin as float32, and bits at no cost
 };
 
-/// The longest side of what is drawn (drawn_bounds) is divided into 2^usual - 1 steps, which all parts share.
+/// The whole length is divided into 2^usual - 1 steps, which all parts share.
 /// If a node enlarges a part, the step in the part's own coordinates is shorter. Parts that nodes do not
 /// rotate are rounded to the same world points; under Draco, they have the same origin and bits, so that
 /// equal points stay equal to the last bit. If vertices of a part would coincide, its step is halved until

@@ -166,13 +166,12 @@ void check_points(const Scene& scene, const WriteOptions& o, const io::Codec& co
     const bool lines = std::any_of(scene.parts.begin(), scene.parts.end(),
                                    [](const Part& part) { return part.mesh.line_count() > 0; });
     if ((any && codec.can.points) || (lines && codec.can.lines)) {
-        const bool only_triangles = codec.can.draco == io::Capabilities::Draco::on_request;
-        if (o.draco && o.draco->on && only_triangles)
+        if (o.file.draco.on && !codec.can.always_draco)
             context.warn("W-DRACO",
                          fmt::format("'{}' is not compressed: in {}, Draco compresses faces only, and the "
                                      "scene has none",
                                      o.path.text, codec.name),
-                         codec.can.meshopt ? "meshopt: true compresses points and lines" : "");
+                         codec.can.honours("meshopt") ? "meshopt: true compresses points and lines" : "");
         return;
     }
     if (io::is_without_meshes(scene))
@@ -292,9 +291,11 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     to_convention(out, o, *codec, context, report);
     if (may_need_full(o, *codec, out.bounds()))
         settings.double_positions = needs_full(moved_by_floats(out), out.bounds(), context);
-    choose_bits(settings, o, *codec, out, report);
-    if (purpose && !settings.double_positions && !codec->can.tiles)
+    choose_bits(settings, *codec, out, report);
+    if (purpose && !settings.double_positions && !codec->can.honours("tiles")) {
         keep_fit(out, lent, *purpose, *codec, settings, context);
+        settings.drawn.reset(); // repairs may have moved vertices
+    }
     settings.draco.keep_decoded = context.reads_back();
     steps.next();
     const io::Written written = codec->write(out, settings);
@@ -309,7 +310,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
     WrittenScene file = stage_files(written, o.path.text, *codec, out, settings, context);
     file.is_whole = lent.size() == scene.parts.size();
-    if (purpose && !codec->can.tiles && check_fit(file, *purpose, out, settings, context))
+    if (purpose && !codec->can.honours("tiles") && check_fit(file, *purpose, out, settings, context))
         report.fits = purpose->name;
     context.wrote(std::move(file));
     for (std::size_t k = 0; k < lent.size(); ++k) {

@@ -4,6 +4,7 @@
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/write_options.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -189,7 +190,8 @@ const RegisterCodec drc({
     .name = "drc",
     .about = "Draco's compressed meshes and point clouds",
     .extensions = {"drc"},
-    .can = {.points = true, .draco = Capabilities::Draco::always, .attributes = "all at vertices"},
+    .can =
+        {.points = true, .options = {draco_option()}, .always_draco = true, .attributes = "all at vertices"},
     .sniff = [](Span bytes) { return is_draco(bytes) ? 2 : 0; },
     .read = read,
     .write = write,

@@ -149,7 +149,7 @@ Settled settle_all(const DracoInput& given, const DracoSettings& settings, bool 
     Settled out{given,
                 {{given.origin[0], given.origin[1], given.origin[2]},
                  given.range,
-                 bits_as_fine(settings.position_bits, given.extent, given.range)},
+                 bits_as_fine(bits_or_usual(settings.position_bits), given.extent, given.range)},
                 {}};
     settle(out.input.vertices, out.positions);
     for (auto& column : out.input.columns) {
@@ -178,7 +178,8 @@ struct Encoded {
 Encoded encode(::draco::ExpertEncoder& encoder, int method, const Settled& settled,
                const DracoSettings& settings, int position, const std::vector<int>& columns) {
     const DracoInput& input = settled.input;
-    encoder.SetSpeedOptions(settings.speed, settings.speed);
+    const int speed = static_cast<int>(settings.speed);
+    encoder.SetSpeedOptions(speed, speed);
     encoder.SetEncodingMethod(method);
     encoder.SetAttributeExplicitQuantization(position, settled.positions.bits, 3, input.origin, input.range);
     for (std::size_t c = 0; c < columns.size(); ++c)

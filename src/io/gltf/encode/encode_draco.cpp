@@ -85,9 +85,9 @@ void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& tab
                             Json& primitive) {
     DracoInput input;
     set_draco_grid(mesh, input); // uses the whole mesh, so that points on common borders match
-    if (settings.whole_positions) set_whole_steps(input, settings.draco.position_bits);
-    set_draco_lattice(mesh, settings.lattice.origin, settings.lattice.step, input,
-                      settings.draco.position_bits);
+    const int bits = bits_or_usual(settings.draco.position_bits);
+    if (settings.whole_positions) set_whole_steps(input, bits);
+    set_draco_lattice(mesh, settings.lattice.origin, settings.lattice.step, input, bits);
     set_positions(mesh, table, input);
     input.triangles = table.indices;
     std::vector<const Column*> used;

@@ -193,7 +193,7 @@ int Store::bits_of(std::size_t mesh) const {
     for (const std::size_t node : nodes_[mesh])
         if (const auto of = bits_of_node_.find(node); of != bits_of_node_.end())
             bits = std::max(bits, of->second);
-    return bits > 0 ? bits : quantize_.position_bits;
+    return bits > 0 ? bits : bits_or_usual(quantize_.position_bits);
 }
 
 /// The grid with a step of 1.
@@ -262,11 +262,12 @@ std::size_t Store::position(std::size_t accessor, const std::optional<PositionGr
         return replace(accessor, on_grid(positions(accessor), *grid));
     }
     const Attribute a = numbers(accessor);
-    return replace(accessor, as_floats(a,
-                                       patch_.settings.whole_positions ? 0
-                                       : quantize_.on ? exponent_of_range(a, quantize_.position_bits)
-                                                      : finest_exponent(a),
-                                       true));
+    return replace(accessor,
+                   as_floats(a,
+                             patch_.settings.whole_positions ? 0
+                             : quantize_.on ? exponent_of_range(a, bits_or_usual(quantize_.position_bits))
+                                            : finest_exponent(a),
+                             true));
 }
 
 /// Keeps sparse accessors sparse.

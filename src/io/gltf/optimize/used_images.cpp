@@ -87,7 +87,7 @@ LibraryImageNames library_images(const std::filesystem::path& file,
     try {
         const Input input = Input::open(file).with_asset_roots(asset_roots);
         const Codec* codec = sure_codec(input);
-        if (!codec || !codec->can.quantize) return {};
+        if (!codec || !codec->can.honours("quantize")) return {};
         const bool binary = is_glb(input.bytes());
         const Chunks chunks =
             binary ? split_glb(input.bytes()) : Chunks{without_byte_order_mark(as_text(input.bytes())), {}};

@@ -95,7 +95,7 @@ TEST_CASE("names go on request, not those that something is looked up by", "[io]
     io::WriteSettings settings;
     CHECK(test::json_of(test::written(scene, "glb", settings).files[0].bytes).find("thing") !=
           std::string::npos);
-    settings.names = false;
+    settings.drop_names = true;
     CHECK(test::json_of(test::written(scene, "glb", settings).files[0].bytes).find("thing") ==
           std::string::npos);
 }
