@@ -276,8 +276,4 @@ Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& 
     return plan;
 }
 
-Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) {
-    return plan_source(read_pipeline(file), std::move(settings), problems);
-}
-
 } // namespace facetmill::pipeline

@@ -118,8 +118,6 @@ struct PipelineSource {
 [[nodiscard]] PipelineSource read_pipeline(const std::filesystem::path& file);
 /// Plans a pipeline; its inputs are relative to its file, which is an input itself.
 [[nodiscard]] Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& problems);
-/// Reads and plans a pipeline.
-[[nodiscard]] Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
 
 /// The known files of these steps in order (globs expanded), without files of steps that will be skipped.
 [[nodiscard]] std::vector<PlannedFile> planned_files(const Steps& steps, const Folders& places);

@@ -340,10 +340,10 @@ TEST_CASE("a pipeline is read from a file, whose folder its inputs are relative 
     Ground ground;
     test::put(ground.directory / "p.yaml", "facetmill: 1\nstages:\n  - test-load: a.ply\n");
     Problems problems;
-    const auto plan = pipeline::load_plan(ground.directory / "p.yaml", {}, problems);
+    const auto plan = pipeline::plan_source(pipeline::read_pipeline(ground.directory / "p.yaml"), {}, problems);
     CHECK(problems.size() == 0);
     CHECK(planned_inputs(plan) == std::vector<std::filesystem::path>{ground.directory / "a.ply"});
-    CHECK_THROWS_AS(pipeline::load_plan(ground.directory / "q.yaml", {}, problems), Error);
+    CHECK_THROWS_AS(pipeline::read_pipeline(ground.directory / "q.yaml"), Error);
 }
 
 TEST_CASE("a stage that leaves the range of numbers fails at its place in the pipeline", "[pipeline]") {

@@ -59,46 +59,6 @@ void check_limit(const Box& box, const HatchSettings& s) {
             "choose a larger spacing");
 }
 
-} // namespace
-
-std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep keep) {
-    const Vec2 d = b - a;
-    std::vector<double> at;
-    for (const Ring ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            Vec2 p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
-            // Uses a fixed order of ends, so that coincident edges are crossed at the same point.
-            if (q.x < p.x || (q.x == p.x && q.y < p.y)) std::swap(p, q);
-            const auto left = [&](const Vec2& c) {
-                return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y) >= 0;
-            };
-            if (left(p) == left(q)) continue;
-            const double hp = cross(d, p - a), hq = cross(d, q - a);
-            const double t = hp == hq ? 0.5 : std::clamp(hp / (hp - hq), 0.0, 1.0);
-            at.push_back(dot(p + (q - p) * t - a, d) / dot(d, d));
-        }
-    std::sort(at.begin(), at.end());
-    std::vector<Interval> kept;
-    const auto keep_part = [&](double from, double to) {
-        from = std::max(from, 0.0);
-        to = std::min(to, 1.0);
-        if (from < to) kept.push_back({from, to});
-    };
-    if (keep == Keep::inside) {
-        for (std::size_t i = 0; i + 1 < at.size(); i += 2) keep_part(at[i], at[i + 1]);
-    } else {
-        double from = 0;
-        for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
-            keep_part(from, at[i]);
-            from = std::max(from, at[i + 1]);
-        }
-        keep_part(from, 1);
-    }
-    return kept;
-}
-
-namespace {
-
 /// The segments between crossings whose winding number is kept, sorted by line and position. Segments run
 /// along the line's direction; on odd lines, they run backward.
 std::vector<Segment> kept_segments(const std::vector<Crossing>& crossings, const HatchSettings& s) {

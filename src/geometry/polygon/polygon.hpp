@@ -161,18 +161,6 @@ bool inside_by_angles(const Vec3& q, std::span<const Vec3> convex, double tolera
 
 enum class Keep { inside, outside };
 
-/// A part of a line from a to b, as parameters: 0 at a, 1 at b.
-struct Interval {
-    double from = 0, to = 1;
-    bool operator==(const Interval&) const = default;
-};
-
-/// The parts of the segment inside (or outside) a polygon with holes, ascending. The sorted crossings of the
-/// whole line pair up, so the location of `a` need not be known. Sides are exact, and a corner on the line
-/// counts as left of it, so the number of crossings is always even.
-[[nodiscard]] std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings,
-                                              Keep keep = Keep::inside);
-
 struct Segment {
     Vec2 a, b;
 };

@@ -18,41 +18,6 @@ double total(const std::vector<Segment>& segments) {
 
 } // namespace
 
-TEST_CASE("a line is cut by outline and hole alike", "[geometry]") {
-    const auto rings = rings_of({square(0, 0, 4), reversed(square(1, 1, 2))});
-    using Parts = std::vector<Interval>;
-    CHECK(clip_line({-4, 2}, {4, 2}, rings) == Parts{{0.5, 0.625}, {0.875, 1}});
-    CHECK(clip_line({-4, 2}, {4, 2}, rings, Keep::outside) == Parts{{0, 0.5}, {0.625, 0.875}});
-    CHECK(clip_line({0.5, 0.5}, {0.5, 3.5}, rings) == Parts{{0, 1}}); // both ends inside
-    CHECK(clip_line({1.5, 2}, {2.5, 2}, rings).empty());              // all in the hole
-    CHECK(clip_line({9, 9}, {9, 10}, rings, Keep::outside) == Parts{{0, 1}});
-}
-
-TEST_CASE("a line through corners and along edges crosses evenly", "[geometry]") {
-    using Parts = std::vector<Interval>;
-    CHECK(clip_line({-1, -1}, {3, 3}, rings_of({square(0, 0, 2)})) == Parts{{0.25, 0.75}});
-    // A line along an edge has the corners on its left. The result is empty if the rest is also on its left,
-    // otherwise everything.
-    CHECK(clip_line({0, 0}, {4, 0}, rings_of({square(0, 0, 2)})).empty());
-    CHECK(clip_line({4, 0}, {0, 0}, rings_of({square(0, 0, 2)})) == Parts{{0.5, 1}});
-    CHECK(clip_line({0, 1}, {2, 1}, rings_of({l_shape()})) == Parts{{0, 1}});
-}
-
-TEST_CASE("inside and outside make up the line", "[geometry]") {
-    const auto rings = rings_of({keyhole(), moved(reversed(l_shape()), {7, 1})});
-    for (int i = 0; i < 50; ++i) {
-        const Vec2 a{-1, -1 + 0.13 * i}, b{11, 5 - 0.11 * i};
-        double sum = 0;
-        for (const Keep keep : {Keep::inside, Keep::outside})
-            for (const auto& part : clip_line(a, b, rings, keep)) {
-                sum += part.to - part.from;
-                const Vec2 middle = a + (b - a) * ((part.from + part.to) / 2);
-                CHECK((locate(middle, rings) == PointLocation::inside) == (keep == Keep::inside));
-            }
-        CHECK(sum == Approx(1));
-    }
-}
-
 TEST_CASE("hatching covers area over spacing", "[geometry]") {
     const auto rings = rings_of({square(0, 0, 4), reversed(square(1, 1, 2))});
     HatchSettings settings{.spacing = 0.01, .direction = {0.6, 0.8}};
