@@ -209,6 +209,37 @@ namespace {
 /// A triangle's record: the numbers of its rows.
 using Corners = std::array<std::uint32_t, 3>;
 
+/// The distinct rows of some corners.
+struct Ranks {
+    std::vector<std::uint32_t> numbers; ///< distinct row numbers, ascending
+    std::vector<Index> of;              ///< [corners] index in numbers
+};
+
+Ranks ranks_of(io::Span records) {
+    constexpr int place_bits = 32;
+    std::vector<std::uint32_t> corners(records.size() / sizeof(std::uint32_t));
+    if (!corners.empty()) std::memcpy(corners.data(), records.data(), corners.size() * sizeof(std::uint32_t));
+    std::vector<std::uint64_t> sorted(corners.size());
+    std::uint32_t largest = 0;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        sorted[c] = std::uint64_t{corners[c]} << place_bits | c;
+        largest = std::max(largest, corners[c]);
+    }
+    radix_sort(
+        sorted, [](std::uint64_t s) { return s >> place_bits; }, static_cast<int>(std::bit_width(largest)));
+    Ranks ranks;
+    ranks.of.resize(corners.size());
+    for (const std::uint64_t s : sorted) {
+        const auto number = static_cast<std::uint32_t>(s >> place_bits);
+        if (ranks.numbers.empty() || ranks.numbers.back() != number) ranks.numbers.push_back(number);
+        ranks.of[static_cast<std::uint32_t>(s)] = static_cast<Index>(ranks.numbers.size() - 1);
+    }
+    return ranks;
+}
+
+/// Distinct row numbers, ascending.
+std::vector<std::uint32_t> numbers_of(io::Span records) { return ranks_of(records).numbers; }
+
 class RowSource final : public FaceSource {
   public:
     RowSource(Rows rows, Contents contents, const io::ReadSettings& settings)
@@ -383,39 +414,6 @@ class RowSource final : public FaceSource {
             give(Corners{corners[polygon.corners[c]], corners[polygon.corners[c + 1]],
                          corners[polygon.corners[c + 2]]});
     }
-
-    /// The distinct rows of some corners.
-    struct Ranks {
-        std::vector<std::uint32_t> numbers; ///< distinct row numbers, ascending
-        std::vector<Index> of;              ///< [corners] index in numbers
-    };
-
-    static Ranks ranks_of(io::Span records) {
-        constexpr int place_bits = 32;
-        std::vector<std::uint32_t> corners(records.size() / sizeof(std::uint32_t));
-        if (!corners.empty())
-            std::memcpy(corners.data(), records.data(), corners.size() * sizeof(std::uint32_t));
-        std::vector<std::uint64_t> sorted(corners.size());
-        std::uint32_t largest = 0;
-        for (std::size_t c = 0; c < corners.size(); ++c) {
-            sorted[c] = std::uint64_t{corners[c]} << place_bits | c;
-            largest = std::max(largest, corners[c]);
-        }
-        radix_sort(
-            sorted, [](std::uint64_t s) { return s >> place_bits; },
-            static_cast<int>(std::bit_width(largest)));
-        Ranks ranks;
-        ranks.of.resize(corners.size());
-        for (const std::uint64_t s : sorted) {
-            const auto number = static_cast<std::uint32_t>(s >> place_bits);
-            if (ranks.numbers.empty() || ranks.numbers.back() != number) ranks.numbers.push_back(number);
-            ranks.of[static_cast<std::uint32_t>(s)] = static_cast<Index>(ranks.numbers.size() - 1);
-        }
-        return ranks;
-    }
-
-    /// Distinct row numbers, ascending.
-    static std::vector<std::uint32_t> numbers_of(io::Span records) { return ranks_of(records).numbers; }
 
     /// Whether rows hold only positions.
     bool has_places_only() const {

@@ -168,6 +168,58 @@ class Occupied {
     std::set<std::array<Index, 3>> new_triangles_;
 };
 
+/// The rounding error of files with 32-bit coordinates.
+double rounding(const Vec3& p) { return 0x1p-21 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+/// The outline as a polygon, triangulated.
+HolePatch planar(const std::vector<Vec3>& ring, std::string& why) {
+    Mesh polygon;
+    polygon.positions = ring;
+    std::vector<Index> wedges(ring.size());
+    for (Index i = 0; i < wedges.size(); ++i) wedges[i] = i;
+    add_face(polygon, wedges);
+    TriangulateResult cut = triangulate(polygon);
+    HolePatch patch;
+    double rounded = 0;
+    for (const Vec3& p : ring) rounded = std::max(rounded, rounding(p));
+    if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounded) {
+        why = fmt::format("its boundary loop is not planar, by {:.6g}", cut.kinds.deviation);
+        return patch;
+    }
+    if (cut.fans > 0) {
+        why = "its boundary loop intersects itself or has no area";
+        return patch;
+    }
+    for (Index c = 0; c < cut.mesh.corner_count(); c += 3)
+        patch.triangles.push_back({cut.mesh.corners[c], cut.mesh.corners[c + 1], cut.mesh.corners[c + 2]});
+    return patch;
+}
+
+HolePatch fan_around_middle(const std::vector<Vec3>& ring) {
+    HolePatch patch;
+    Vec3 middle;
+    const auto n = static_cast<Index>(ring.size());
+    for (const Vec3& p : ring) middle += p;
+    patch.points.push_back(middle / n);
+    for (Index i = 0; i < n; ++i) patch.triangles.push_back({i, (i + 1) % n, n});
+    return patch;
+}
+
+bool in_plane(const Vec3& p, const Vec3& from, const Vec3& normal) {
+    return std::abs(dot(p - from, normalised(normal))) <= rounding(p) + rounding(from);
+}
+
+Vec3 corner_of(const std::vector<Vec3>& ring, const HolePatch& patch, Index i) {
+    return i < ring.size() ? ring[i] : patch.points[i - ring.size()];
+}
+
+/// True if a triangle of the patch has exactly zero area, because it would be removed again.
+bool lacks_area(const std::vector<Vec3>& ring, const HolePatch& patch) {
+    const auto at = [&](Index i) { return corner_of(ring, patch, i); };
+    return std::any_of(patch.triangles.begin(), patch.triangles.end(),
+                       [&](const auto& t) { return collinear(at(t[0]), at(t[1]), at(t[2])); });
+}
+
 class Filler {
   public:
     Filler(Work& work, const HoleSettings& settings, const EdgeList* other_than)
@@ -298,52 +350,6 @@ class Filler {
         return around;
     }
 
-    /// The outline as a polygon, triangulated.
-    static HolePatch planar(const std::vector<Vec3>& ring, std::string& why) {
-        Mesh polygon;
-        polygon.positions = ring;
-        std::vector<Index> wedges(ring.size());
-        for (Index i = 0; i < wedges.size(); ++i) wedges[i] = i;
-        add_face(polygon, wedges);
-        TriangulateResult cut = triangulate(polygon);
-        HolePatch patch;
-        double rounded = 0;
-        for (const Vec3& p : ring) rounded = std::max(rounded, rounding(p));
-        if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounded) {
-            why = fmt::format("its boundary loop is not planar, by {:.6g}", cut.kinds.deviation);
-            return patch;
-        }
-        if (cut.fans > 0) {
-            why = "its boundary loop intersects itself or has no area";
-            return patch;
-        }
-        for (Index c = 0; c < cut.mesh.corner_count(); c += 3)
-            patch.triangles.push_back(
-                {cut.mesh.corners[c], cut.mesh.corners[c + 1], cut.mesh.corners[c + 2]});
-        return patch;
-    }
-
-    static HolePatch fan_around_middle(const std::vector<Vec3>& ring) {
-        HolePatch patch;
-        Vec3 middle;
-        const auto n = static_cast<Index>(ring.size());
-        for (const Vec3& p : ring) middle += p;
-        patch.points.push_back(middle / n);
-        for (Index i = 0; i < n; ++i) patch.triangles.push_back({i, (i + 1) % n, n});
-        return patch;
-    }
-
-    /// The rounding error of files with 32-bit coordinates.
-    static double rounding(const Vec3& p) {
-        return 0x1p-21 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    static bool in_plane(const Vec3& p, const Vec3& from, const Vec3& normal) {
-        return std::abs(dot(p - from, normalised(normal))) <= rounding(p) + rounding(from);
-    }
-    static Vec3 corner_of(const std::vector<Vec3>& ring, const HolePatch& patch, Index i) {
-        return i < ring.size() ? ring[i] : patch.points[i - ring.size()];
-    }
-
     /// True if a triangle of the patch is coplanar with the face across an outline edge, and on the same side
     /// of the edge. Such a patch would cover the face from behind.
     bool folds_back(const Outline& o, const std::vector<Vec3>& ring, const HolePatch& patch) const {
@@ -363,13 +369,6 @@ class Filler {
                     return true;
             }
         return false;
-    }
-
-    /// True if a triangle of the patch has exactly zero area, because it would be removed again.
-    static bool lacks_area(const std::vector<Vec3>& ring, const HolePatch& patch) {
-        const auto at = [&](Index i) { return corner_of(ring, patch, i); };
-        return std::any_of(patch.triangles.begin(), patch.triangles.end(),
-                           [&](const auto& t) { return collinear(at(t[0]), at(t[1]), at(t[2])); });
     }
 
     /// True if an inner edge or a triangle of the patch already exists.

@@ -161,6 +161,17 @@ std::pair<std::size_t, std::size_t> settle_topology(State& s, const Around& r, s
     return {faces + 2 * pairs.size(), bare.vertices};
 }
 
+/// Twice the area below which a triangle counts as flat.
+double least_area(const Vec3& x, const Vec3& y, const Vec3& z) {
+    return least_height * std::max({dot(x - z, x - z), dot(y - z, y - z), dot(y - x, y - x)});
+}
+
+/// True if the angle between two normals is small enough.
+bool is_near(const Vec3& old, const Vec3& now) {
+    const double turn = dot(old, now);
+    return turn > 0 && turn * turn >= least_cosine * least_cosine * dot(old, old) * dot(now, now);
+}
+
 /// An edge to collapse: r.b merges into r.a.
 class Collapse {
   public:
@@ -366,17 +377,6 @@ class Collapse {
                 return false;
         }
         return true;
-    }
-
-    /// Twice the area below which a triangle counts as flat.
-    static double least_area(const Vec3& x, const Vec3& y, const Vec3& z) {
-        return least_height * std::max({dot(x - z, x - z), dot(y - z, y - z), dot(y - x, y - x)});
-    }
-
-    /// True if the angle between two normals is small enough.
-    static bool is_near(const Vec3& old, const Vec3& now) {
-        const double turn = dot(old, now);
-        return turn > 0 && turn * turn >= least_cosine * least_cosine * dot(old, old) * dot(now, now);
     }
 
     /// A flat face has no orientation to keep. When it gets an area, it must face like its neighbour across

@@ -79,6 +79,37 @@ struct Insertion {
     int depth = 0;
 };
 
+/// Text, dimensions and the like, which no one takes for an outline.
+bool is_annotation(std::string_view type) {
+    constexpr std::array<std::string_view, 20> types{"TEXT",
+                                                     "MTEXT",
+                                                     "ATTDEF",
+                                                     "ATTRIB",
+                                                     "DIMENSION",
+                                                     "ARC_DIMENSION",
+                                                     "LEADER",
+                                                     "MLEADER",
+                                                     "TOLERANCE",
+                                                     "MULTILEADER",
+                                                     "POINT",
+                                                     "VIEWPORT",
+                                                     "SEQEND",
+                                                     "VERTEX",
+                                                     "RAY",
+                                                     "XLINE",
+                                                     "LARGE_RADIAL_DIMENSION",
+                                                     "OLE2FRAME",
+                                                     "OLEFRAME",
+                                                     "LIGHT"};
+    return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+std::string_view printable_type(std::string_view type) {
+    const bool good = !type.empty() && type.size() <= 40 &&
+                      type.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == type.npos;
+    return good ? type : "unknown";
+}
+
 class DxfPlacer {
   public:
     DxfPlacer(const DxfFile& file, const std::string& name) : file_(file), name_(name) {}
@@ -171,36 +202,6 @@ class DxfPlacer {
             insert(e, into.depth, layer);
         else if (!curve(e, first_vertex, end_vertices))
             ++out_.unused[std::string(printable_type(e.type))];
-    }
-
-    /// Text, dimensions and the like, which no one takes for an outline.
-    static bool is_annotation(std::string_view type) {
-        constexpr std::array<std::string_view, 20> types{"TEXT",
-                                                         "MTEXT",
-                                                         "ATTDEF",
-                                                         "ATTRIB",
-                                                         "DIMENSION",
-                                                         "ARC_DIMENSION",
-                                                         "LEADER",
-                                                         "MLEADER",
-                                                         "TOLERANCE",
-                                                         "MULTILEADER",
-                                                         "POINT",
-                                                         "VIEWPORT",
-                                                         "SEQEND",
-                                                         "VERTEX",
-                                                         "RAY",
-                                                         "XLINE",
-                                                         "LARGE_RADIAL_DIMENSION",
-                                                         "OLE2FRAME",
-                                                         "OLEFRAME",
-                                                         "LIGHT"};
-        return std::find(types.begin(), types.end(), type) != types.end();
-    }
-    static std::string_view printable_type(std::string_view type) {
-        const bool good = !type.empty() && type.size() <= 40 &&
-                          type.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == type.npos;
-        return good ? type : "unknown";
     }
 
     void insert(const DxfEntity& e, int depth, const std::string& layer) {

@@ -49,6 +49,12 @@ double exponent_of(double roughness) {
     return roughness_of(near) == roughness ? near : exponent;
 }
 
+bool is_same_texture(const JsonCursor& material, const JsonCursor& pbr) {
+    const Json &a = material.find("occlusionTexture")->json(),
+               &b = pbr.find("metallicRoughnessTexture")->json();
+    return a.contains("index") && b.contains("index") && a["index"] == b["index"];
+}
+
 /// Describes a single material.
 class Describer {
   public:
@@ -239,12 +245,6 @@ class Describer {
             put("orm", occlusion);
         else
             lose_texture("occlusionTexture", no_map);
-    }
-
-    static bool is_same_texture(const JsonCursor& material, const JsonCursor& pbr) {
-        const Json &a = material.find("occlusionTexture")->json(),
-                   &b = pbr.find("metallicRoughnessTexture")->json();
-        return a.contains("index") && b.contains("index") && a["index"] == b["index"];
     }
 
     bool is_plain() const {
