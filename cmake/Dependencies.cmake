@@ -21,7 +21,6 @@ find_package(CGAL REQUIRED)
 find_package(draco CONFIG QUIET)
 find_library(GMP_LIBRARY gmp REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
-find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 find_path(DRACO_INCLUDE_DIR draco/compression/decode.h REQUIRED)
 find_library(DRACO_LIBRARY draco REQUIRED)
 
@@ -29,7 +28,7 @@ add_library(facetmill_dependencies INTERFACE)
 target_link_libraries(facetmill_dependencies INTERFACE
   Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json ${YAML_CPP_LIBRARY} CLI11::CLI11 Eigen3::Eigen PkgConfig::NETTLE
   ZLIB::ZLIB PNG::PNG JPEG::JPEG PkgConfig::WEBP PkgConfig::ZSTD EXPAT::EXPAT PkgConfig::SECCOMP
-  meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
+  meshoptimizer::meshoptimizer ${DRACO_LIBRARY} ${GMP_LIBRARY})
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})
 
 add_library(facetmill_cgal_dependencies INTERFACE)

@@ -30,9 +30,9 @@ foreach(room core seldom program triangulations cgal openmesh)
 endforeach()
 add_executable(facetmill_static src/cli/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/generated/linked_sources.cpp ${static_objects})
 
-# tinygltf is before Draco, which has a copy of an older one. From 1.3 on, libwebp has a libsharpyuv.
+# From 1.3 on, libwebp has a libsharpyuv.
 set(static_libraries "")
-foreach(library OpenMeshTools OpenMeshCore tinygltf draco yaml-cpp nettle png16 z jpeg webp sharpyuv zstd expat seccomp
+foreach(library OpenMeshTools OpenMeshCore draco yaml-cpp nettle png16 z jpeg webp sharpyuv zstd expat seccomp
                 meshoptimizer mpfr gmp tbb fmt)
   find_library(static_${library} lib${library}.a HINTS ${FACETMILL_LIBRARIES}/lib)
   if(static_${library})

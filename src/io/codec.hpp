@@ -256,6 +256,13 @@ struct FileHeader {
     std::function<std::vector<NamedImage>()> images{};
 };
 
+/// The verdict of a library that reads a written file beside our own reader.
+struct SecondReading {
+    std::string reader{};                   ///< its name; empty if there is none for the file
+    std::string not_asked{};                ///< why it did not read the file; empty if it did
+    std::vector<std::string> differences{}; ///< to our reader; only the first ones
+};
+
 struct Codec {
     std::string name;                    ///< for example "ply"
     std::string about;                   ///< one line, for `facetmill formats`
@@ -275,6 +282,8 @@ struct Codec {
     /// Reads only the header. Throws the errors of read if the header is malformed. Sets the neighbours, the
     /// materials, and the part names if the header gives them. Empty: the format has no header.
     std::function<void(const Input&, FileHeader&)> peek = {};
+    /// Reads a written file with another library and compares it with our reading. May be empty.
+    std::function<SecondReading(const Input&, const Scene&)> read_again = {};
 };
 
 /// Registers a codec; one static object per codec file.

@@ -486,6 +486,9 @@ Json ReadBack::json() const {
         else
             all[name] = static_cast<std::int64_t>(value);
     }
+    if (second.reader.empty()) return all;
+    all["second_reader"] = second.not_asked.empty() ? second.reader + " reads the same"
+                                                    : fmt::format("not asked: {}", second.not_asked);
     return all;
 }
 
@@ -509,6 +512,10 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
     } catch (const Error& error) {
         refuse(error.diagnostics().front().message);
     }
+    if (codec.read_again) back.second = codec.read_again(file, back.scene);
+    if (!back.second.differences.empty())
+        refuse(fmt::format("{} reads other contents than facetmill: {}", back.second.reader,
+                           fmt::join(back.second.differences, "; ")));
     std::size_t polygons = 0, triangles = 0, lines = 0;
     for (const auto& part : scene.parts) {
         lines += part.mesh.line_count();

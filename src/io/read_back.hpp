@@ -30,6 +30,7 @@ struct ReadBack {
     Properties soundness;      ///< properties of the decoded file
     std::vector<std::string> losses; ///< properties that the scene has and the file lost
     VertexChanges changes;           ///< the cause, if there are losses
+    SecondReading second;            ///< without differences
     /// Whether float32 rounding, and not the grid, moved points by more than a millionth of the diagonal,
     /// because coordinates are far from the origin.
     bool too_far_for_floats() const;
@@ -39,7 +40,7 @@ struct ReadBack {
 /// Decodes the file and compares it with the scene (in the file's convention). The number of faces (polygons
 /// or their triangles) and of lines must match. Vertices used by faces, and ends of lines, must lie within
 /// the tolerance of float32 or the grid of their counterparts, in both directions. Throws an output error
-/// (E-READBACK) otherwise. Changes to closedness, manifoldness, orientation, and degenerate or duplicate
+/// (E-READBACK) otherwise, and if a second reader (Codec::read_again) finds other contents. Changes to closedness, manifoldness, orientation, and degenerate or duplicate
 /// faces are reported in `losses`, without an error. written: the codec's result. Only faces that it counts
 /// as dropped may be missing.
 [[nodiscard]] ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene,

@@ -19,6 +19,7 @@
 #include "io/gltf/read/kinds.hpp"
 #include "io/gltf/read/lines.hpp"
 #include "io/gltf/read/mesh.hpp"
+#include "io/gltf/read/second_reader.hpp"
 #include "io/gltf/write/patch.hpp"
 #include "io/images/image_files.hpp"
 #include "io/write_options.hpp"
@@ -578,6 +579,7 @@ const RegisterCodec glb({
     .read = read,
     .write = [](const Scene& scene, const WriteSettings& s) { return write(scene, s, true); },
     .peek = peek,
+    .read_again = read_again,
 });
 
 const RegisterCodec gltf({
@@ -591,6 +593,7 @@ const RegisterCodec gltf({
     .read = read,
     .write = [](const Scene& scene, const WriteSettings& s) { return write(scene, s, false); },
     .peek = peek,
+    .read_again = read_again,
 });
 
 } // namespace

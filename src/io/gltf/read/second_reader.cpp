@@ -1,0 +1,304 @@
+#include "io/gltf/read/second_reader.hpp"
+
+#include "base/fast_json.hpp"
+#include "io/gltf/document/accessor.hpp"
+#include "io/gltf/document/container.hpp"
+#include "parallel/memory.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+/// Collects the first differences.
+class Differences {
+  public:
+    void add(std::string text) {
+        if (found_.size() < most) found_.push_back(std::move(text));
+    }
+    template <class A, class B>
+    void compare(const std::string& name, const A& ours, const B& theirs) {
+        if (!(ours == theirs)) add(fmt::format("{}: {}, tinygltf reads {}", name, ours, theirs));
+    }
+    std::vector<std::string> take() { return std::move(found_); }
+
+  private:
+    static constexpr std::size_t most = 5;
+    std::vector<std::string> found_;
+};
+
+// tinygltf asks these functions for files. Images are not decoded, so a byte stands for each.
+
+bool exists(const std::string&, void*) { return true; }
+
+std::string same(const std::string& path, void*) { return path; }
+
+bool read_neighbour(std::vector<unsigned char>* out, std::string* error, const std::string& path,
+                    void* user) {
+    if (!path.ends_with(".bin")) {
+        out->assign(1, 0);
+        return true;
+    }
+    try {
+        const Input file = static_cast<const Input*>(user)->beside(path);
+        out->resize(file.bytes().size());
+        if (!out->empty()) std::memcpy(out->data(), file.bytes().data(), out->size());
+        return true;
+    } catch (const Error& e) {
+        *error = e.diagnostics().front().message;
+        return false;
+    }
+}
+
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
+
+template <class Callbacks>
+Callbacks callbacks_for(const Input& file) {
+    Callbacks callbacks{};
+    callbacks.FileExists = exists;
+    callbacks.ExpandFilePath = same;
+    callbacks.ReadWholeFile = read_neighbour;
+    callbacks.WriteWholeFile = write_nothing;
+    // Newer versions ask for the size first, only to compare it with a limit.
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+            *size = 1;
+            return true;
+        };
+    callbacks.user_data = const_cast<Input*>(&file);
+    return callbacks;
+}
+
+/// Returns what tinygltf says against the file, or an empty text.
+std::string load(const Input& file, tinygltf::Model& model) {
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(file));
+    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
+                             const unsigned char*, int, void*) { return true; },
+                          nullptr);
+    const Span bytes = file.bytes();
+    std::string error, warning;
+    const auto size = static_cast<unsigned>(bytes.size());
+    const bool loaded =
+        is_glb(bytes) ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                    reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                    size, "", tinygltf::NO_REQUIRE)
+                      : loader.LoadASCIIFromString(&model, &error, &warning, as_text(bytes).data(), size, "",
+                                                   tinygltf::NO_REQUIRE);
+    if (loaded) return "";
+    return error.empty() ? "no reason given" : error.substr(0, error.find_last_not_of('\n') + 1);
+}
+
+/// The numbers of an accessor as tinygltf stores them. None without a view, with sparse values, or out of
+/// range.
+struct Numbers {
+    const unsigned char* data = nullptr;
+    std::size_t count = 0, stride = 0;
+    int component_type = 0;
+    bool normalised = false;
+
+    double number(std::size_t i, std::size_t component) const {
+        const unsigned char* at = data + i * stride;
+        const auto read = [&]<class T>(T value) {
+            std::memcpy(&value, at + component * sizeof(T), sizeof(T));
+            const auto number = static_cast<double>(value);
+            if constexpr (std::is_integral_v<T>)
+                if (normalised) return std::max(number / std::numeric_limits<T>::max(), -1.0);
+            return number;
+        };
+        switch (component_type) {
+        case int8:
+            return read(std::int8_t{});
+        case uint8:
+            return read(std::uint8_t{});
+        case int16:
+            return read(std::int16_t{});
+        case uint16:
+            return read(std::uint16_t{});
+        case uint32:
+            return read(std::uint32_t{});
+        default:
+            return read(float{});
+        }
+    }
+};
+
+template <class T>
+const T* item(const std::vector<T>& all, int index) {
+    return index >= 0 && static_cast<std::size_t>(index) < all.size() ? &all[static_cast<std::size_t>(index)]
+                                                                      : nullptr;
+}
+
+/// packed: a Draco array, which tinygltf stores without gaps whatever its view says.
+std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, bool packed) {
+    const auto* accessor = item(model.accessors, index);
+    const auto* view = accessor ? item(model.bufferViews, accessor->bufferView) : nullptr;
+    const auto* buffer = view ? item(model.buffers, view->buffer) : nullptr;
+    if (!buffer || accessor->sparse.isSparse) return std::nullopt;
+    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor->type));
+    const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType));
+    if (components <= 0 || bytes <= 0) return std::nullopt;
+    const auto element = static_cast<std::size_t>(components) * static_cast<std::size_t>(bytes);
+    Numbers all{.count = accessor->count,
+                .stride = packed || view->byteStride == 0 ? element : view->byteStride,
+                .component_type = accessor->componentType,
+                .normalised = accessor->normalized};
+    const std::size_t begin = packed ? 0 : view->byteOffset + accessor->byteOffset;
+    if (all.count > 0 && begin + (all.count - 1) * all.stride + element > buffer->data.size())
+        return std::nullopt;
+    all.data = buffer->data.data() + begin;
+    return all;
+}
+
+/// What a part consists of, by tinygltf.
+struct Contents {
+    std::size_t triangles = 0, lines = 0;
+    Box box;           ///< of the vertices that triangles and lines use
+    bool known = true; ///< all positions and indices could be read
+};
+
+void add(const tinygltf::Model& model, const tinygltf::Primitive& primitive, Contents& contents) {
+    const bool packed = primitive.extensions.contains("KHR_draco_mesh_compression");
+    const auto named = primitive.attributes.find("POSITION");
+    if (named == primitive.attributes.end()) return;
+    const auto positions = numbers_of(model, named->second, packed);
+    const auto indices =
+        primitive.indices < 0 ? std::optional<Numbers>() : numbers_of(model, primitive.indices, packed);
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (!positions || (primitive.indices >= 0 && !indices) ||
+        (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_LINE && mode != TINYGLTF_MODE_POINTS)) {
+        contents.known = false;
+        return;
+    }
+    const std::size_t corners = indices ? indices->count : positions->count;
+    if (mode == TINYGLTF_MODE_TRIANGLES) contents.triangles += corners / 3;
+    if (mode == TINYGLTF_MODE_LINE) contents.lines += corners / 2;
+    for (std::size_t i = 0; i < corners; ++i) {
+        const std::size_t v = indices ? static_cast<std::size_t>(indices->number(i, 0)) : i;
+        if (v >= positions->count) {
+            contents.known = false;
+            return;
+        }
+        contents.box.add({positions->number(v, 0), positions->number(v, 1), positions->number(v, 2)});
+    }
+}
+
+void compare_parts(const tinygltf::Model& model, const Scene& scene, Differences& differences) {
+    std::map<int, Contents> of_meshes;
+    for (const Part& part : scene.parts) {
+        const auto* node = item(model.nodes, part.node);
+        const auto* mesh = node ? item(model.meshes, node->mesh) : nullptr;
+        if (!mesh) {
+            differences.add(
+                fmt::format("part '{}': tinygltf finds no mesh at node {}", part.name, part.node));
+            continue;
+        }
+        const auto [known, is_new] = of_meshes.try_emplace(node->mesh);
+        Contents& contents = known->second;
+        if (is_new)
+            for (const auto& primitive : mesh->primitives) add(model, primitive, contents);
+        if (!contents.known) continue;
+        differences.compare(fmt::format("faces of '{}'", part.name), part.mesh.face_count(),
+                            contents.triangles);
+        differences.compare(fmt::format("lines of '{}'", part.name), part.mesh.line_count(), contents.lines);
+        if (part.mesh.face_count() == 0) continue;
+        const Box box = drawn_box(part.mesh);
+        // Both readers convert the same numbers to doubles; only a division may round.
+        const double margin = 1e-12 * (length(box.min) + length(box.max));
+        if (!(length(box.min - contents.box.min) <= margin && length(box.max - contents.box.max) <= margin))
+            differences.add(fmt::format("box of '{}'", part.name));
+    }
+}
+
+std::size_t size_of_list(const Json& document, const char* name) {
+    const auto found = document.find(name);
+    return found == document.end() ? 0 : found->size();
+}
+
+void compare_counts(const tinygltf::Model& model, const Json& document, Differences& differences) {
+    const auto compare = [&](const char* name, std::size_t theirs) {
+        differences.compare(name, size_of_list(document, name), theirs);
+    };
+    compare("scenes", model.scenes.size());
+    compare("nodes", model.nodes.size());
+    compare("meshes", model.meshes.size());
+    compare("materials", model.materials.size());
+    compare("textures", model.textures.size());
+    compare("images", model.images.size());
+    compare("samplers", model.samplers.size());
+    compare("skins", model.skins.size());
+    compare("animations", model.animations.size());
+    compare("cameras", model.cameras.size());
+    compare("accessors", model.accessors.size());
+}
+
+/// The bounds in the document, as numbers.
+std::vector<double> bound(const Json& accessor, const char* name) {
+    std::vector<double> all;
+    const auto found = accessor.find(name);
+    if (found == accessor.end() || !found->is_array()) return all;
+    all.reserve(found->size());
+    for (const Json& number : *found)
+        if (number.is_number()) all.push_back(number.get<double>());
+    return all;
+}
+
+void compare_accessors(const tinygltf::Model& model, const Json& document, Differences& differences) {
+    const auto found = document.find("accessors");
+    if (found == document.end()) return;
+    for (std::size_t i = 0; i < std::min(found->size(), model.accessors.size()); ++i) {
+        const Json& ours = (*found)[i];
+        const auto& theirs = model.accessors[i];
+        const std::string name = fmt::format("accessors[{}]", i);
+        differences.compare(name + ".componentType", ours.value("componentType", 0), theirs.componentType);
+        differences.compare(name + ".type", components_of(ours.value("type", std::string())),
+                            tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(theirs.type)));
+        differences.compare(name + ".count", ours.value("count", std::size_t{0}), theirs.count);
+        if (bound(ours, "min") != theirs.minValues || bound(ours, "max") != theirs.maxValues)
+            differences.add(name + ": other bounds");
+    }
+}
+
+/// The reason why tinygltf is not asked, or an empty text.
+std::string reason_not_to_ask(const Input& file, const std::string& json) {
+    if (json.find("_meshopt_compression\"") != std::string::npos)
+        return "tinygltf does not decode meshopt compression";
+    constexpr double copies = 2;
+    const double bytes = copies * static_cast<double>(file.bytes().size());
+    if (file.bytes().size() > UINT32_MAX) return "tinygltf reads at most 4 GiB";
+    if (is_much_memory(bytes) && static_cast<double>(memory_left().value_or(0)) < bytes)
+        return "there is too little memory for a second reader";
+    return "";
+}
+
+} // namespace
+
+SecondReading read_again(const Input& file, const Scene& scene) {
+    SecondReading reading{.reader = "tinygltf"};
+    if (scene.documents.size() != 1) return reading;
+    const std::string& json = scene.documents.front()->json;
+    reading.not_asked = reason_not_to_ask(file, json);
+    if (!reading.not_asked.empty()) return reading;
+    tinygltf::Model model;
+    Differences differences;
+    if (const std::string error = load(file, model); !error.empty()) {
+        differences.add("tinygltf cannot read it: " + error);
+    } else if (auto document = fast_json(json)) {
+        const ScopedDestroy destroyed(*document);
+        compare_counts(model, *document, differences);
+        compare_accessors(model, *document, differences);
+        compare_parts(model, scene, differences);
+    }
+    reading.differences = differences.take();
+    return reading;
+}
+
+} // namespace facetmill::io::gltf
