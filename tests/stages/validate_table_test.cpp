@@ -179,6 +179,14 @@ std::vector<Row> topology() {
             {"coplanar_overlaps: 0", scene_of(folded_quad()), scene_of(crossing())}};
 }
 
+/// Cubes of side 1 with a gap between them.
+Mesh two_cubes(double gap) {
+    Mesh all = shapes::cube(), other = all;
+    for (Vec3& p : other.positions) p.x += 1 + gap;
+    append(all, other);
+    return all;
+}
+
 std::vector<Row> shapes_and_attributes() {
     using namespace shapes;
     const Mesh small = scaled(cube(), 0.25);
@@ -189,6 +197,8 @@ std::vector<Row> shapes_and_attributes() {
             {"longest_edge: {max: 1}", scene_of(cube()), scene_of(small)},
             {"nonplanarity: {max: 0.1}", scene_of(warped_quad()), scene_of(quad_cube())},
             {"wall_thickness: {min: 0.5}", scene_of(small), scene_of(cube())},
+            {"gap: {min: 0.5}", scene_of(two_cubes(0.25)), scene_of(two_cubes(0.75))},
+            {"component_size: {min: 0.5}", scene_of(small), scene_of(cube())},
             {"uvs_in_range: true", scene_of(with_value("TEXCOORD_0", 3, 0, 1.5)), scene_of(uv_cube())},
             {"uv_overlaps: 0", scene_of(uv_cube()), scene_of(mapped_grid())},
             {"finite_attributes: true", scene_of(with_value("NORMAL", 7, 1, NAN)), scene_of(uv_cube())},

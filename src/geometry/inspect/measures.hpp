@@ -28,6 +28,14 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 /// The least of wall_thicknesses, found faster because each face is searched only below the least so far.
 [[nodiscard]] std::optional<double> thinnest_wall(const Measured& mesh);
 
+// In gap.cpp:
+/// [faces] Like wall_thicknesses, through the air in front of the faces.
+[[nodiscard]] std::vector<double> gaps(const Mesh& mesh);
+/// The least of gaps.
+[[nodiscard]] std::optional<double> smallest_gap(const Measured& mesh);
+/// [faces] The longest side of the box around the component of the face.
+[[nodiscard]] std::vector<double> component_sizes(const Mesh& mesh);
+
 // In face_pairs.cpp:
 /// Neighbours folded onto each other; the lower face first, ascending. Exact.
 [[nodiscard]] Pairs folded_faces(const Mesh& mesh);

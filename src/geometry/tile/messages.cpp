@@ -4,8 +4,8 @@ namespace facetmill {
 
 const RegisterMessages tile_messages{
     {"E-TILE",
-     "The tile size is 0, or it gives too many tiles.",
-     "Choose a larger size.",
+     "The tile size is 0, or it gives too many tiles, or a part cannot get pegs.",
+     "Choose a larger size. Pegs need a closed part and must be shorter than a tile.",
      {ErrorKind::limit, ErrorKind::stage, ErrorKind::usage}},
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fmt/format.h>
+#include <optional>
 #include <tbb/parallel_invoke.h>
 
 namespace facetmill {
@@ -27,9 +28,11 @@ class Tiler {
 
     /// within: the remaining range of cells along this axis. A point that rounding moves beyond its cut
     /// plane stays on its side of it, so every cut leaves fewer cells and the recursion ends.
-    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, TileCell cell, CellRange within = {}) {
+    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, TileCell cell,
+                     std::optional<CellRange> limits = {}) {
         if (size_of(mesh) == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
+        const CellRange within = limits.value_or(all_cells(settings_.axes[axis]));
         const TileAxis& a = settings_.axes[axis];
         CellRange cells = cells_of(mesh, a);
         cells.low = std::clamp(cells.low, within.low, within.high);
@@ -51,10 +54,12 @@ class Tiler {
         TileResult front, back;
         tbb::parallel_invoke(
             [&] {
-                back = split(std::move(halves.back), halves.memory, axis, cell, {within.low, middle - 1});
+                back = split(std::move(halves.back), halves.memory, axis, cell,
+                             CellRange{within.low, middle - 1});
             },
             [&] {
-                front = split(std::move(halves.front), halves.memory, axis, cell, {middle, within.high});
+                front =
+                    split(std::move(halves.front), halves.memory, axis, cell, CellRange{middle, within.high});
             });
         return joined(std::move(back), std::move(front), halves);
     }
@@ -62,6 +67,10 @@ class Tiler {
   private:
     /// The number of elements to cut: faces, or the points of a cloud.
     std::size_t size_of(const Mesh& mesh) const { return cloud_ ? mesh.vertex_count() : mesh.face_count(); }
+
+    static CellRange all_cells(const TileAxis& a) {
+        return a.count > 0 ? CellRange{0, static_cast<double>(a.count - 1)} : CellRange{};
+    }
 
     /// The first border to cut: the index divisible by the highest power of two, with 0 first of all. So an
     /// edge on a border is cut in the same order in both neighbours, and its points are rounded identically.

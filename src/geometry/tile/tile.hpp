@@ -7,11 +7,13 @@
 
 namespace facetmill {
 
-/// The grid's planes perpendicular to an axis of the world, at origin + k * size for every integer k.
+/// The grid's planes perpendicular to an axis of the world, at origin + k * size for every integer k. With a
+/// count, only for 0 < k < count: the first and the last cell have no outer border.
 struct TileAxis {
     std::size_t axis = 0; ///< 0 x, 1 y, 2 z
     double size = 1;      ///< above zero
     double origin = 0;
+    std::int64_t count = 0; ///< the number of cells; 0: unlimited
 };
 
 struct TileSettings {

@@ -231,4 +231,8 @@ TubesResult tubes(const Lines& lines, const TubesSettings& settings) {
     return std::move(sweep.r);
 }
 
+Mesh rod(const Vec3& from, const Vec3& to, double radius, int sides) {
+    return tubes({{}, {from, to}, {{0, 1, none}}}, {2 * radius, sides}).mesh;
+}
+
 } // namespace facetmill

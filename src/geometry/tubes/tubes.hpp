@@ -32,4 +32,7 @@ struct TubesResult {
 /// distance of their lines. O(n log n) in the lines; requires finite points.
 [[nodiscard]] TubesResult tubes(const Lines& lines, const TubesSettings& settings);
 
+/// A closed cylinder with flat ends. The corners of its section are at the radius.
+[[nodiscard]] Mesh rod(const Vec3& from, const Vec3& to, double radius, int sides);
+
 } // namespace facetmill

@@ -3,10 +3,12 @@
 #include "base/json.hpp"
 #include "base/text/words.hpp"
 #include "facetmill_version.hpp"
+#include "geometry/render/render.hpp"
 #include "geometry/render/srgb.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
+#include "io/images/png.hpp"
 #include "io/metadata.hpp"
 #include "io/threemf/model.hpp"
 #include "io/threemf/zip.hpp"
@@ -24,12 +26,14 @@ constexpr std::string_view content_types =
 <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
  <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
  <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+ <Default Extension="png" ContentType="image/png"/>
 </Types>
 )";
 constexpr std::string_view relations =
     R"(<?xml version="1.0" encoding="UTF-8"?>
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
  <Relationship Id="rel0" Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+ <Relationship Id="rel1" Target="/Metadata/thumbnail.png" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/>
 </Relationships>
 )";
 
@@ -372,17 +376,29 @@ class ModelWriter {
     bool polygons_ = false, hides_materials_ = false;
 };
 
+/// The picture that file managers and slicers show for the file.
+Bytes thumbnail_of(const Scene& scene) {
+    PictureSettings settings;
+    settings.width = settings.height = 256;
+    settings.coarse_occlusion = true;
+    settings.edges = EdgeLines::no;
+    settings.ground = {1, 1, 1};
+    return png(picture_of(scene, settings));
+}
+
 } // namespace
 
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
-    std::vector<ArchiveFile> files(3);
+    std::vector<ArchiveFile> files(4);
     files[0].path = "[Content_Types].xml";
     append(files[0].bytes, content_types);
     files[1].path = "_rels/.rels";
     append(files[1].bytes, relations);
     files[2].path = "3D/3dmodel.model";
     files[2].bytes = ModelWriter(scene, settings, written).write();
+    files[3].path = "Metadata/thumbnail.png";
+    files[3].bytes = thumbnail_of(scene);
     written.files.push_back({settings.title + ".3mf", make_archive(files)});
     return written;
 }

@@ -37,6 +37,12 @@ If there is too little room for the thickness, the wall becomes thinner or fills
 Cavities and pieces smaller than a cube with the thickness as its side are removed.
 An open surface becomes the solid enclosed by its two sides and its walls.
 
+With drain, vertical holes connect each cavity with the outside.
+A hole begins where a ball of its diameter lies lowest in the cavity, and passes through the wall
+below.
+Several holes keep two diameters apart and take the lowest places in turn.
+The up axis is that of the scene, or +Z if unknown.
+
 Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and replaces
 lines by cylinders.)";
 

@@ -10,6 +10,8 @@ const RegisterMessages thicken_messages{
      "Walls of a thickened part intersect, lie inside each other or are inverted because there is too little "
      "room. Or the part is smaller than the thickness.",
      "Give a smaller thickness, or `clean` the result."},
+    {"W-THICKEN-DRAIN", "`thicken: {drain}` makes no hole, or leaves a cavity closed.",
+     "Use a smaller `diameter`, or `self_intersections: resolve`. A part without a cavity needs no drain."},
     {"W-THICKEN-OPEN", "The solid is not closed, because the surface is not oriented.",
      "Use `orient` first."},
     {"W-THICKEN-THIN", "A wall is thinner than requested in some places.",

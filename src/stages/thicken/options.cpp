@@ -1,6 +1,7 @@
 #include "stages/thicken/options.hpp"
 
 #include "geometry/inspect/inspect.hpp"
+#include "options/mark_at.hpp"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,13 @@ void declare_thickness(Declare<ThickenOptions>& d) {
     };
 }
 
+void declare_drain(Declare<DrainOptions>& d) {
+    d.option("diameter", &DrainOptions::diameter, "The diameter of the holes.").above(0).required().primary();
+    d.option("count", &DrainOptions::count, "The maximum number of holes at the lowest places of a cavity.")
+        .between(1, 100);
+    d.option("vent", &DrainOptions::vent, "Adds a hole at the highest place of each cavity, for air.");
+}
+
 } // namespace
 
 void declare_thicken(Declare<ThickenOptions>& d) {
@@ -75,6 +83,16 @@ void declare_thicken(Declare<ThickenOptions>& d) {
         .between(1, 100);
     d.option("sides", &ThickenOptions::sides, "The number of sides of each cylinder.").between(3, 360);
     declare_self_intersections(d);
+    d.group("drain", &ThickenOptions::drain,
+            "Drills vertical holes through the wall at the lowest places of each cavity, so that resin or "
+            "powder can leave it.",
+            declare_drain)
+        .also_called("drain_holes holes escape_holes", "(drain: 5mm)");
+}
+
+void verify_thicken(const ThickenOptions& o, const Value& given, Problems& problems) {
+    if (o.drain && o.mode != Mode::surface)
+        add_refusal(Refusal{"drain", "'drain' needs mode: surface"}, "thicken", given, problems);
 }
 
 } // namespace facetmill::thicken_stage

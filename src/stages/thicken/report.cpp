@@ -27,6 +27,30 @@ void declare_wall(DeclareFields<ThickenResult::Wall>& d) {
     d.field("mean", &ThickenResult::Wall::mean, "The mean thickness.").unit("scene units");
 }
 
+void declare_hole(DeclareFields<DrainHole>& d) {
+    d.field("from", &DrainHole::from, "The start of its axis, in the cavity.").unit("scene units");
+    d.field("to", &DrainHole::to, "The end of its axis, outside.").unit("scene units");
+    d.field("vent", &DrainHole::vent, "Whether it is a vent at the highest place.");
+}
+
+/// Reads a member of the result of drain, if there is one.
+template <class T>
+auto of_drain(T DrainResult::*member) {
+    return [member](const ThickenedPart& part) {
+        const auto* surface = std::get_if<ThickenedSurface>(&part);
+        return surface && surface->drained ? std::optional<T>((*surface->drained).*member) : std::nullopt;
+    };
+}
+
+void declare_drained(DeclareFields<ThickenedPart>& d) {
+    constexpr const char* drain = "drain is given";
+    d.list("drain_holes", of_drain(&DrainResult::holes), "The holes of drain.", declare_hole)
+        .only_when(drain);
+    d.field("cavities", of_drain(&DrainResult::cavities), "The cavities of the solid.").only_when(drain);
+    d.field("closed_cavities", of_drain(&DrainResult::closed_cavities), "Cavities without a hole.")
+        .only_when(drain);
+}
+
 void declare_part(DeclareFields<ThickenedPart>& d) {
     constexpr const char* surface = "a surface got a thickness";
     d.field(
@@ -63,6 +87,7 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
     d.field("self_intersections", pairs, "Pairs of faces that intersect. Pairs that only touch do not count.")
         .only_when("self_intersections is not ignore and the part has faces")
         .null_when("the search was skipped because the part is smaller than its thickness");
+    declare_drained(d);
     constexpr const char* edges = "edges became cylinders";
     d.field("cylinders", where_it_is(&ThickenedEdges::cylinders), "Edges that became cylinders.")
         .only_when(edges);
@@ -86,6 +111,7 @@ std::string line_of(const ThickenedSurface& surface) {
     if (r.resolved) line += " folds resolved,";
     if (r.self_intersections)
         line += fmt::format(" {},", counted(*r.self_intersections, "self-intersection"));
+    if (surface.drained) line += fmt::format(" {},", counted(surface.drained->holes.size(), "drain hole"));
     line.pop_back();
     return line;
 }
@@ -103,6 +129,21 @@ void declare_thicken_report(DeclareFields<ThickenReport>& d) {
         }
         return lines;
     });
+}
+
+void warn_of_cavities(const Part& part, const DrainResult& drained, Context& context) {
+    const auto warn = [&](const std::string& what, const char* hint) {
+        context.warn("W-THICKEN-DRAIN", fmt::format("thicken: part '{}' {}", part.name, what), hint);
+    };
+    if (drained.failure)
+        warn("gets no drain holes: " + *drained.failure,
+             "use thicken: {self_intersections: resolve}, or clean the part first");
+    else if (drained.cavities == 0)
+        warn("has no cavity to drain", "use a smaller thickness, or leave drain out");
+    else if (drained.closed_cavities > 0)
+        warn(fmt::format("has {} that no drain hole fits into",
+                         counted(drained.closed_cavities, "cavity", "cavities")),
+             "use a smaller diameter of drain");
 }
 
 void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor& wall,

@@ -1,6 +1,7 @@
 #pragma once
 // The report and warnings of thicken.
 
+#include "geometry/drain/drain.hpp"
 #include "stages/thicken/options.hpp"
 
 #include <variant>
@@ -12,8 +13,9 @@ struct ThickenedSurface {
     std::string part;
     ThickenResult result;
     bool has_faces = true;
-    bool looked = false;       ///< checked for self-intersections
-    Unit unit = Unit::unknown; ///< the scene's unit
+    bool looked = false;                ///< checked for self-intersections
+    Unit unit = Unit::unknown;          ///< the scene's unit
+    std::optional<DrainResult> drained; ///< without its mesh
 };
 /// The result for edges that became cylinders.
 struct ThickenedEdges {
@@ -33,6 +35,8 @@ struct WallAskedFor {
     Unit unit = Unit::unknown;
 };
 
+/// Warns about cavities without holes.
+void warn_of_cavities(const Part& part, const DrainResult& drained, Context& context);
 /// Warns if the solid is open, thinner than requested, or intersects itself.
 void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor& wall,
                    const ThickenOptions& o, Context& context);

@@ -22,33 +22,63 @@ class SurfaceThickener {
         : scene_(scene), o_(o), shapes_(distinct_shapes(scene)) {}
 
     ThickenedPart operator()(Part& part, double thickness, Context& context) {
-        ThickenResult r = result_for(part, thickness);
+        auto [r, drained, origin] = result_for(part, thickness, context);
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         const bool has_faces = part.mesh.face_count() > 0;
         if (has_faces) warn_of_walls(part, r, {thickness, scene_.unit}, o_, context);
-        return ThickenedSurface{part.name, std::move(r), has_faces, o_.looks(), scene_.unit};
+        if (drained && has_faces) warn_of_cavities(part, *drained, context);
+        return ThickenedSurface{part.name,  std::move(r), has_faces,
+                                o_.looks(), scene_.unit,  std::move(drained)};
     }
 
   private:
     struct Known {
         ThickenResult result;
-        Vec3 origin; ///< the source part's origin in world space
+        std::optional<DrainResult> drained; ///< without its mesh
+        Vec3 origin;                        ///< the source part's origin in world space
     };
 
-    ThickenResult result_for(const Part& part, double thickness) {
+    Known result_for(const Part& part, double thickness, Context& context) {
         const std::size_t as = shapes_.first[static_cast<std::size_t>(&part - scene_.parts.data())];
         const Vec3 origin = in_world(part, {});
         const auto make = [&] {
-            return thicken(part.mesh, {thickness, o_.side, o_.miter_limit, o_.looks(), part.transform,
-                                       o_.self_intersections == ThickenOptions::SelfIntersections::resolve});
+            Known known{
+                thicken(part.mesh, {thickness, o_.side, o_.miter_limit, o_.looks(), part.transform,
+                                    o_.self_intersections == ThickenOptions::SelfIntersections::resolve}),
+                {},
+                origin};
+            if (o_.drain) drill(known, part, context);
+            return known;
         };
         if (shapes_.uses[as] == 1) return make();
-        auto& [result, from] = known_.try_emplace({as, key_of(thickness)}, Known{{}, origin}).first->second;
-        if (result.mesh.positions.empty()) result = make();
-        ThickenResult r = result;
-        if (r.first_turned) *r.first_turned += origin - from;
-        return r;
+        Known& known = known_[{as, key_of(thickness)}];
+        if (known.result.mesh.positions.empty()) known = make();
+        Known moved = known;
+        const Vec3 by = origin - known.origin;
+        if (moved.result.first_turned) *moved.result.first_turned += by;
+        if (moved.drained)
+            for (DrainHole& hole : moved.drained->holes) {
+                hole.from += by;
+                hole.to += by;
+            }
+        return moved;
+    }
+
+    void drill(Known& known, const Part& part, Context& context) const {
+        DrainSettings settings;
+        settings.diameter = context.resolve(o_.drain->diameter, scene_, "drain.diameter", &part);
+        if (!(settings.diameter > 0))
+            throw Error(ErrorKind::stage, "E-THICKEN", "thicken: the diameter of drain is 0 in this scene",
+                        "give a length in scene units");
+        settings.count = static_cast<std::size_t>(o_.drain->count);
+        settings.vent = o_.drain->vent;
+        if (scene_.up == UpAxis::y) settings.up = {0, 1, 0};
+        settings.to_world = part.transform;
+        DrainResult drained = drain(std::move(known.result.mesh), settings);
+        known.result.mesh = std::exchange(drained.mesh, {});
+        known.result.changes = changes_in_sequence(known.result.changes, std::exchange(drained.changes, {}));
+        known.drained = std::move(drained);
     }
 
     const Scene& scene_;
@@ -93,23 +123,25 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
 }
 
 struct ThickenStage : StageOf<run> {
+    void verify(const Value& given, Problems& problems) const override { verify_thicken(o, given, problems); }
     /// Wires use only the edges of faces.
     CrossingFacePolicy crossing_faces() const override {
         return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
     }
 };
 
-const RegisterStage registered =
-    make_stage<ThickenStage>({.name = "thicken",
-                              .also_called = "shell hollow offset solidify extrude wireframe",
-                              .about = help::thicken::about,
-                              .details = help::thicken::details,
-                              .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
-                                           "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
-                              .leaves_points = true,
-                              .may_lose = MayLose::area,
-                              .crossing_faces = CrossingFacePolicy::fill},
-                             declare_thicken, declare_thicken_report);
+const RegisterStage registered = make_stage<ThickenStage>(
+    {.name = "thicken",
+     .also_called = "shell hollow offset solidify extrude wireframe",
+     .about = help::thicken::about,
+     .details = help::thicken::details,
+     .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
+                  "thicken: {thickness: 0.5%, mode: edges, sides: 6}",
+                  "thicken: {thickness: 2mm, drain: {diameter: 5mm, count: 2, vent: true}}"},
+     .leaves_points = true,
+     .may_lose = MayLose::area,
+     .crossing_faces = CrossingFacePolicy::fill},
+    declare_thicken, declare_thicken_report);
 
 } // namespace
 

@@ -14,6 +14,20 @@ The points of a point cloud are divided into tiles in the same way and get the s
 A point on a border belongs to the tile that begins at the border.
 To process each tile, use foreach: {part: "*"}.
 
+With fit, each part has its own grid, which begins at its bounding box.
+It has the fewest tiles that fit into the given box, and they are equally long.
+Tiles are numbered layer by layer from bottom to top, such as NAME.04.x0.y1.z1.
+A part that fits stays whole.
+A tile with its pegs fits as well.
+
+Pegs join each pair of neighbouring tiles.
+They point upward along their axis, so tiles go together row by row, then layer by layer.
+Each peg and hole keeps the distance `wall` from the surface, from other borders and from other pegs.
+W-TILE-PEGS names the pairs of tiles without room for a peg.
+With pegs, the tiles' volumes add up to the volume of the part plus pegs minus holes.
+Pegs have 32 sides.
+A hole of radius r encloses a circle of radius r, which is the radius of the peg plus clearance.
+
 Borders match exactly because neighbouring tiles come from the same cut.
 The rules of clip with keep: both apply to attributes, caps and faces in the plane.
 With cap: true, a closed part gives closed tiles, whose volumes add up to its volume.)";

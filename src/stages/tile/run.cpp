@@ -1,10 +1,13 @@
-#include "geometry/tile/tile.hpp"
-#include "options/mark_at.hpp"
+#include "base/text/words.hpp"
+#include "geometry/cut/cut.hpp"
+#include "mesh/placement.hpp"
+#include "mesh/transform.hpp"
+#include "mesh/unit_text.hpp"
 #include "stage/bind_pose.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
-#include "stage/stage.hpp"
 #include "stages/tile/help.hpp"
+#include "stages/tile/options.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,43 +22,17 @@ struct ReportedTile {
     std::size_t faces = 0;
 };
 
+struct ReportedPeg {
+    std::string low, high;
+    Vec3 at;
+};
+
 struct TileReport {
     std::vector<ReportedTile> tiles;
+    std::optional<std::vector<ReportedPeg>> pegs;
+    std::optional<std::size_t> without_pegs;
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0;
 };
-
-struct TileOptions {
-    std::vector<Length> size;
-    std::string axes = "xy";
-    std::vector<Length> origin;
-    bool cap = false;
-    std::string cap_material = "cap";
-};
-
-void declare(Declare<TileOptions>& d) {
-    d.option("size", &TileOptions::size, "The edge length of the tiles: one length, or one for each axis.")
-        .required()
-        .primary();
-    d.option("axes", &TileOptions::axes, "The axes along which the grid cuts: any of x, y and z.");
-    d.option(
-        "origin", &TileOptions::origin,
-        "A corner of the grid: one length for each axis. Default: 0. The grid extends in both directions.");
-    declare_cap(d, &TileOptions::cap, &TileOptions::cap_material);
-}
-
-std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context& context) {
-    std::vector<TileAxis> axes;
-    for (std::size_t i = 0; i < o.axes.size(); ++i) {
-        const Length& size = o.size[o.size.size() > 1 ? i : 0];
-        const double edge = context.resolve(size, scene, "size");
-        if (!(edge > 0))
-            throw Error(ErrorKind::stage, "E-TILE", "the size of the tiles is 0 in this scene",
-                        "the bounding box has no extent: give a length in scene units");
-        axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), edge,
-                        o.origin.empty() ? 0 : context.resolve(o.origin[i], scene, "origin")});
-    }
-    return axes;
-}
 
 void declare_tile(DeclareFields<ReportedTile>& d) {
     d.field("part", &ReportedTile::part, "The name of the tile.");
@@ -67,27 +44,63 @@ void declare_tile(DeclareFields<ReportedTile>& d) {
     d.field("faces", &ReportedTile::faces, "The number of faces.");
 }
 
+void declare_peg(DeclareFields<ReportedPeg>& d) {
+    d.field("low", &ReportedPeg::low, "The tile below it, along its axis. It has the peg.");
+    d.field("high", &ReportedPeg::high, "The tile above it.");
+    d.field("at", &ReportedPeg::at, "Its place in the plane between both tiles.").unit("scene units");
+}
+
 void declare_report(DeclareFields<TileReport>& d) {
+    constexpr const char* pegs = "pegs is given";
     d.list("tiles", &TileReport::tiles, "Each tile with faces or points.", declare_tile);
+    d.list("pegs", &TileReport::pegs, "Each peg, dowel or magnet.", declare_peg).only_when(pegs);
+    d.field("without_pegs", &TileReport::without_pegs, "Pairs of neighbours without room for a peg.")
+        .only_when(pegs);
     d.field("cut_faces", &TileReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &TileReport::cap_faces, "Faces of caps.");
     d.field("open_contours", &TileReport::open_contours,
             "Contours that were not capped because they are open.");
 }
 
-/// The name of a tile, such as "body.x0.y-1".
-std::string name_of(const Part& part, const Tile& tile, const std::vector<TileAxis>& axes) {
-    std::string name = part.name;
+/// The name of a tile, such as "body.x0.y-1". Tiles of `fit` also get a number from 1: "body.04.x0.y1.z1".
+std::string name_of(const Part& part, const Tile& tile, const std::vector<TileAxis>& axes,
+                    const std::string& number) {
+    std::string name = part.name + number;
     for (const TileAxis& a : axes) name += fmt::format(".{}{}", "xyz"[a.axis], tile.cell[a.axis]);
     return name;
 }
 
+/// Warns about neighbours without a peg.
+void warn_without_pegs(const Part& part, const PegsResult& pegs, const std::vector<std::string>& names,
+                       Context& context) {
+    if (pegs.without.empty()) return;
+    std::string pairs;
+    constexpr std::size_t most = 5;
+    for (std::size_t i = 0; i < std::min(most, pegs.without.size()); ++i)
+        append_item(
+            pairs, fmt::format("'{}' and '{}'", names[pegs.without[i].first], names[pegs.without[i].second]));
+    if (pegs.without.size() > most) pairs += fmt::format(", and {} more", pegs.without.size() - most);
+    context.warn("W-TILE-PEGS",
+                 fmt::format("tile: {} of part '{}' have no room for a peg: {}",
+                             counted(pegs.without.size(), "pair"), part.name, pairs),
+                 "use a smaller diameter, length or wall, or glue them");
+}
+
 class TileRun {
   public:
-    TileRun(const TileSettings& settings, Context& context) : context_(context), settings_(settings) {}
+    TileRun(const TileOptions& o, const Scene& scene, Context& context)
+        : o_(o), context_(context), pegs_(pegs_of(o, scene, context)) {
+        if (!o.fits()) settings_.axes = grid_of(o, scene, context);
+        settings_.clip.snap = true;
+    }
 
-    Scene run(Scene scene, const std::string& cap_material, TileReport& report) {
-        if (settings_.clip.cap) set_cap(settings_.clip, scene, cap_material);
+    Scene run(Scene scene, TileReport& report) {
+        if (o_.caps()) set_cap(settings_.clip, scene, o_.cap_material);
+        if (pegs_) {
+            pegs_->primitive = settings_.clip.cap_primitive;
+            report.pegs.emplace();
+            report.without_pegs = 0;
+        }
         std::vector<Part> parts;
         std::vector<const Part*> cut;
         context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
@@ -98,17 +111,36 @@ class TileRun {
                 continue;
             }
             ++next;
-            cut_part(part, parts, report);
+            if (o_.fits()) settings_.axes = grid_of_part(part, scene);
+            if (o_.fits() && settings_.axes.empty() && part.mesh.vertex_count() > 0)
+                keep_part(part, parts, report);
+            else
+                cut_part(part, parts, report);
         }
         scene.parts = std::move(parts);
-        if (report.cap_faces > 0) add_material(scene, cap_material);
+        if (report.cap_faces > 0) add_material(scene, o_.cap_material);
         return scene;
     }
 
   private:
+    std::vector<TileAxis> grid_of_part(const Part& part, const Scene& scene) {
+        const Box box = box_of(in_world(part).positions);
+        return box.empty() ? std::vector<TileAxis>{}
+                           : fitted_grid(o_, box, pegs_ ? protrusion(*pegs_) : 0, scene, context_);
+    }
+
+    /// A part that fits is its own only tile.
+    static void keep_part(Part& part, std::vector<Part>& parts, TileReport& report) {
+        auto& entry = report.tiles.emplace_back();
+        entry.part = part.name;
+        entry.faces = part.mesh.face_count();
+        parts.push_back(std::move(part));
+    }
+
     void cut_part(Part& part, std::vector<Part>& parts, TileReport& report) {
         settings_.to_world = part.transform;
         settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
+        const Mesh whole = pegs_ ? whole_of(part) : Mesh{};
         TileResult r = tile(std::move(part.mesh), settings_);
         part.mesh = {};
         warn_of_open("tile", part, r.open, context_);
@@ -119,10 +151,13 @@ class TileRun {
         if (r.tiles.empty())
             context_.warn("W-TILE-NOTHING",
                           fmt::format("tile: part '{}' is empty and gives no tile", part.name));
+        const std::vector<std::string> names = names_of(part, r.tiles);
+        if (pegs_) join(part, whole, r.tiles, names, report);
         const auto cuts = std::make_shared<const CutMemory>(std::move(r.memory));
-        for (Tile& t : r.tiles) {
+        for (std::size_t i = 0; i < r.tiles.size(); ++i) {
+            Tile& t = r.tiles[i];
             Part& piece = parts.emplace_back(part);
-            piece.name = name_of(part, t, settings_.axes);
+            piece.name = names[i];
             piece.mesh = std::move(t.mesh);
             piece.cuts = cuts;
             auto& entry = report.tiles.emplace_back();
@@ -132,54 +167,56 @@ class TileRun {
         }
     }
 
+    /// A copy of the solid, which pegs must stay inside.
+    static Mesh whole_of(const Part& part) {
+        Mesh whole = bare(part.mesh);
+        if (whole.face_count() == 0 || !is_closed(whole) || !inverse(part.transform))
+            throw Error(
+                ErrorKind::stage, "E-TILE",
+                fmt::format("tile: part '{}' is not a closed solid, so it cannot get pegs", part.name),
+                "use clean: {holes: minimal} first to close it, or leave pegs out");
+        return whole;
+    }
+
+    std::vector<std::string> names_of(const Part& part, const std::vector<Tile>& tiles) const {
+        std::vector<std::string> names;
+        names.reserve(tiles.size());
+        const std::size_t digits = std::to_string(tiles.size()).size();
+        for (std::size_t i = 0; i < tiles.size(); ++i)
+            names.push_back(name_of(part, tiles[i], settings_.axes,
+                                    o_.fits() ? fmt::format(".{:0{}}", i + 1, digits) : std::string()));
+        return names;
+    }
+
+    void join(const Part& part, const Mesh& whole, std::vector<Tile>& tiles,
+              const std::vector<std::string>& names, TileReport& report) {
+        const PegsResult pegs = add_pegs(tiles, whole, settings_, *pegs_);
+        if (pegs.failure)
+            throw Error(ErrorKind::stage, "E-TILE",
+                        fmt::format("tile: '{}' cannot get its pegs: {}", names[pegs.failure->first],
+                                    pegs.failure->second),
+                        "use clean: {self_intersections: union} first to repair the part, or leave pegs out");
+        warn_without_pegs(part, pegs, names, context_);
+        *report.without_pegs += pegs.without.size();
+        for (const Peg& peg : pegs.pegs) report.pegs->push_back({names[peg.low], names[peg.high], peg.at});
+    }
+
+    const TileOptions& o_;
     Context& context_;
-    TileSettings settings_;
+    TileSettings settings_; ///< shared by all parts, except transform, memory and the grid of `fit`
+    std::optional<PegSettings> pegs_;
 };
 
-/// Replaces each selected part by its tiles, named after part and cell ("body.x0.y-1"). settings: shared by
-/// all parts, except transform, memory and the caps' primitive. Warns about open contours (W-CAP-OPEN) and
-/// parts without faces (W-TILE-NOTHING).
-Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& cap_material, Context& context,
-                 TileReport& report) {
-    return TileRun(settings, context).run(std::move(scene), cap_material, report);
-}
-
+/// Replaces each selected part by its tiles. Warns about open contours (W-CAP-OPEN), parts without faces
+/// (W-TILE-NOTHING) and tiles without room for pegs (W-TILE-PEGS).
 Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& report) {
     warn_of_bind_pose(scene, context);
-    TileSettings settings;
-    settings.axes = axes_of(o, scene, context);
-    settings.clip.snap = true;
-    settings.clip.cap = o.cap;
-    return tile_parts(std::move(scene), settings, o.cap_material, context, report);
+    TileRun tiles(o, scene, context);
+    return tiles.run(std::move(scene), report);
 }
 
 struct TileStage : StageOf<run> {
-    void verify(const Value& given, Problems& problems) const override {
-        const auto axis = [&](char c) {
-            return std::string_view("xyz").find(c) != std::string_view::npos &&
-                   std::count(o.axes.begin(), o.axes.end(), c) == 1;
-        };
-        if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
-            problems.add(mark_at(given, "axes"), "E-TILE",
-                         fmt::format("tile: 'axes' accepts each of x, y, z at most once, found '{}'", o.axes),
-                         "for example axes: xy");
-        const Value* sizes = given.is_map() ? given.find("size") : &given;
-        if (o.size.empty())
-            problems.add(mark_at(given, "size"), "E-TILE", "tile: 'size' is an empty list",
-                         "give one size, or one for each axis");
-        for (const Length& size : o.size)
-            if (!(size.amount > 0) && !(sizes && sizes->deferred))
-                problems.add(mark_at(given, "size"), "E-TILE",
-                             fmt::format("tile: 'size' must be above 0, found {}", size.text));
-        if (o.size.size() > 1 && o.size.size() != o.axes.size())
-            problems.add(mark_at(given, "size"), "E-TILE",
-                         fmt::format("tile: {} sizes for {} axes", o.size.size(), o.axes.size()),
-                         "give one size, or one for each axis");
-        if (!o.origin.empty() && o.origin.size() != o.axes.size())
-            problems.add(mark_at(given, "origin"), "E-TILE",
-                         fmt::format("tile: {} origins for {} axes", o.origin.size(), o.axes.size()),
-                         "give one for each axis");
-    }
+    void verify(const Value& given, Problems& problems) const override { verify_tile(o, given, problems); }
 };
 
 const RegisterStage registered =
@@ -188,9 +225,11 @@ const RegisterStage registered =
                            .about = help::tile::about,
                            .details = help::tile::details,
                            .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
-                                        "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"},
+                                        "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}",
+                                        "tile: {fit: [200mm, 200mm, 180mm]}",
+                                        "tile: {fit: 200mm, pegs: {diameter: 6mm, clearance: 0.2mm}}"},
                            .crossing_faces = CrossingFacePolicy::fill},
-                          declare, declare_report);
+                          declare_tile_options, declare_report);
 
 } // namespace
 

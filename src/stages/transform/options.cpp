@@ -13,6 +13,7 @@ namespace facetmill::transform_stage {
 namespace {
 
 using Pivot = TransformOptions::Pivot;
+using Purpose = TransformOptions::Purpose;
 
 /// The same rotation as `rotated` of mesh/transform.hpp, as a matrix.
 Transform rotation(const TransformRotation& r) {
@@ -65,14 +66,30 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.choice<Pivot>("pivot", &TransformOptions::pivot,
                     {{"origin", Pivot::origin, "the world's origin"},
                      {"centre", Pivot::centre, "the centre of the parts' bounding box"}},
-                    "The point that scale, rotate and fit do not move.");
+                    "The point that scale, rotate, orient_for and fit do not move.");
     d.option("matrix", &TransformOptions::matrix,
              "Twelve or sixteen numbers, row by row. The matrix multiplies column vectors (x, y, z, 1).");
+    d.choice<Purpose>(
+         "orient_for", &TransformOptions::orient_for,
+         {{"none", Purpose::none, "unchanged"},
+          {"printing", Purpose::printing,
+           "turns the parts together for the least overhang, then the lowest height, and puts them on the "
+           "ground"}},
+         "Turns the parts for a purpose.")
+        .also_called("auto_orient orientation lay_flat");
+    d.option("overhang_angle", &TransformOptions::overhang_angle,
+             "For orient_for: a face overhangs if it looks down and its slope against the ground is below "
+             "this angle.")
+        .above(0)
+        .below(90);
     d.option("fit", &TransformOptions::fit,
              "Scales the parts uniformly until their bounding box fits into a cube with this side. For "
              "example, fit: 120mm makes the longest side 120 mm. Three lengths give a box instead of a cube. "
              "A percentage refers to the current side, so 50% halves the parts.")
         .also_called("size resize fit_to max_size longest normalize normalise height", "(fit: 120mm)");
+    d.option("shrink_only", &TransformOptions::shrink_only,
+             "Leaves parts that already fit at their size, so fit never enlarges them.")
+        .also_called("only_shrink max");
     d.option("translate", &TransformOptions::translate, "Three lengths.")
         .also_called("move offset translation position");
     d.option("centre", &TransformOptions::centre,
@@ -108,8 +125,14 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
     for (const Length& side : o.fit)
         if (!(side.amount > 0) && !(fit && fit->deferred))
             refuse("fit", fmt::format("the lengths of fit must be above 0, found {}", side.text));
-    if (given.find("pivot") && o.scale.empty() && !o.rotate && o.fit.empty())
-        add_refusal(Refusal{"pivot", "'pivot' needs scale, rotate or fit"}, "transform", given, problems);
+    if (given.find("pivot") && o.scale.empty() && !o.rotate && o.fit.empty() && o.orient_for == Purpose::none)
+        add_refusal(Refusal{"pivot", "'pivot' needs scale, rotate, orient_for or fit"}, "transform", given,
+                    problems);
+    if (o.shrink_only && o.fit.empty())
+        add_refusal(Refusal{"shrink_only", "'shrink_only' needs fit"}, "transform", given, problems);
+    if (given.find("overhang_angle") && o.orient_for == Purpose::none)
+        add_refusal(Refusal{"overhang_angle", "'overhang_angle' needs orient_for: printing"}, "transform",
+                    given, problems);
     if (o.rotate && !(length(o.rotate->axis) > 0))
         refuse("rotate", "the axis of the rotation has zero length");
 }

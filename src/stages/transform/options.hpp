@@ -13,6 +13,8 @@ struct TransformRotation {
 struct TransformOptions {
     /// The fixed point of scale, rotate and fit.
     enum class Pivot { origin, centre };
+    /// The purpose that parts are turned for.
+    enum class Purpose { none, printing };
 
     std::vector<Length> translate, fit;
     std::optional<TransformRotation> rotate;
@@ -20,7 +22,9 @@ struct TransformOptions {
     Pivot pivot = Pivot::origin;
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    bool centre = false, ground = false, bake = false;
+    Purpose orient_for = Purpose::none;
+    Angle overhang_angle = Angle::degrees(45);
+    bool shrink_only = false, centre = false, ground = false, bake = false;
 };
 
 void declare_transform(Declare<TransformOptions>& d);

@@ -4,6 +4,22 @@
 
 namespace facetmill::transform_stage {
 
+namespace {
+
+void declare_direction(DeclareFields<PrintDirection>& d) {
+    d.field("overhang_area", &PrintDirection::overhang,
+            "The area of faces that look down with a slope below overhang_angle, except faces on the ground.")
+        .unit("square scene units");
+    d.field("height", &PrintDirection::height, "The height along the up axis.").unit("scene units");
+}
+
+void declare_orientation(DeclareFields<PrintDirectionResult>& d) {
+    d.object("before", &PrintDirectionResult::before, "Before the turn.", declare_direction);
+    d.object("after", &PrintDirectionResult::after, "After the turn.", declare_direction);
+}
+
+} // namespace
+
 void declare_transform_report(DeclareFields<TransformReport>& d) {
     const auto rows = [](const TransformReport& r) {
         std::array<std::array<double, 4>, 3> m{};
@@ -17,6 +33,9 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
             "The factor that the change of unit applied to lengths.");
     d.field("fit_factor", &TransformReport::fit_factor, "The scale factor of fit.")
         .only_when("fit is given and the scene has parts");
+    d.object("orientation", &TransformReport::orientation,
+             "The result of orient_for, in the size before fit.", declare_orientation)
+        .only_when("orient_for is printing and the scene has faces");
     d.field("unit", &TransformReport::unit, "The unit of the scene after this stage, or unknown.");
     d.field("up", &TransformReport::up, "The up axis after this stage, or unknown.");
 }

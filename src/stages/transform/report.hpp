@@ -1,6 +1,7 @@
 #pragma once
 // The report and warnings of transform.
 
+#include "geometry/print_direction/print_direction.hpp"
 #include "io/convert.hpp"
 #include "stages/transform/options.hpp"
 
@@ -10,7 +11,8 @@ struct TransformReport {
     Transform all; ///< the combined transform of the parts
     double unit_factor = 1;
     std::optional<double> fit_factor;
-    std::string unit, up; ///< the unit and up axis of the resulting scene
+    std::optional<PrintDirectionResult> orientation; ///< in the scene's unit before fit
+    std::string unit, up;                            ///< the unit and up axis of the resulting scene
 };
 void declare_transform_report(DeclareFields<TransformReport>& d);
 

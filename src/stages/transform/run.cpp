@@ -48,13 +48,14 @@ class Mover {
         const Vec3 fixed = pivot();
         if (!spin.identity()) move(moved(fixed) * spin * moved(-fixed));
         if (!o_.matrix.empty()) move(matrix_of(o_));
+        const std::optional<PrintDirectionResult> orientation = orient();
         const std::optional<double> fit = fit_factor();
         if (fit) move(moved(pivot()) * uniform(*fit) * moved(-pivot()));
         if (!o_.translate.empty()) move(moved(translation()));
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
-        if (o_.ground && !box().empty()) move(moved(drop()));
+        if ((o_.ground || orientation) && !box().empty()) move(moved(drop()));
         if (o_.bake) bake();
-        return {all_, converted.factor, fit, to_string(scene_.unit), to_string(scene_.up)};
+        return {all_, converted.factor, fit, orientation, to_string(scene_.unit), to_string(scene_.up)};
     }
 
   private:
@@ -88,8 +89,24 @@ class Mover {
             throw Error(ErrorKind::stage, "E-TRANSFORM",
                         "transform: fit cannot scale the parts because their bounding box has no extent",
                         "print the bounds with facetmill info");
-        return factor;
+        return o_.shrink_only ? std::min(factor, 1.0) : factor;
     }
+
+    /// Turns the parts for printing, all together.
+    std::optional<PrintDirectionResult> orient() {
+        if (o_.orient_for == TransformOptions::Purpose::none) return {};
+        std::vector<const Part*> parts;
+        for (const Part& part : scene_.parts)
+            if (context_.selects(part, scene_) && part.mesh.face_count() > 0) parts.push_back(&part);
+        const Surface surface = surface_of(parts);
+        if (surface.size() == 0) return {};
+        const Vec3 up = up_vector();
+        const PrintDirectionResult found = find_print_direction(surface, up, {o_.overhang_angle.radians});
+        move(moved(pivot()) * turn_onto(found.after.up, up) * moved(-pivot()));
+        return found;
+    }
+
+    Vec3 up_vector() const { return scene_.up == UpAxis::y ? Vec3{0, 1, 0} : Vec3{0, 0, 1}; }
 
     Vec3 translation() const {
         Vec3 by;
@@ -100,10 +117,8 @@ class Mover {
 
     /// The translation that puts the parts on the ground.
     Vec3 drop() const {
-        Vec3 by;
-        const std::size_t up = scene_.up == UpAxis::y ? 1 : 2;
-        by[up] = -box().min[up];
-        return by;
+        const Vec3 up = up_vector();
+        return up * -dot(up, box().min);
     }
 
     Box box() const {
@@ -176,6 +191,7 @@ struct TransformStage : StageOf<run> {
         context.report(*info->result, &report);
     }
     std::optional<std::string> why_not_on_cells() const override {
+        if (o.orient_for != TransformOptions::Purpose::none) return "orient_for needs all faces in memory";
         if (o.bake) return "bake applies node transforms, and cells have no nodes";
         return {};
     }
@@ -189,7 +205,9 @@ const RegisterStage registered = make_stage<TransformStage>(
      .examples = {"transform: {scale: 0.001}",
                   "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
                   "transform: {unit: m, up: y, centre: true, ground: true}",
-                  "transform: {fit: 120mm, ground: true}", "transform: {translate: [0, 0, 2mm]}"},
+                  "transform: {fit: 120mm, ground: true}",
+                  "transform: {orient_for: printing, fit: [200mm, 200mm, 180mm], shrink_only: true}",
+                  "transform: {translate: [0, 0, 2mm]}"},
      .moves = true,
      .lines = LinesPolicy::work,
      .may_lose = MayLose::area,
