@@ -2,8 +2,8 @@
 """`run web -D budget` and `-D look` beside gltfpack and gltf-transform: pictures at equal bytes, bytes at equal pictures.
 
 For each asset and peer: the peer makes a file. `budget` gets the bytes of that file, and `look` its difference. All
-files are judged alike: facetmill decodes and renders them from seven sides, which differ from the six of `fit`, with
-ambient occlusion. `rms` is the root mean square difference from the asset's pictures over the pixels that either
+files are judged alike: facetmill decodes and renders them from five sides, with ambient occlusion; three of them are
+not among the six of `fit`. `rms` is the root mean square difference from the asset's pictures over the pixels that either
 covers, on black and white, in percent; `ssim` is the structural similarity of their luminance (Wang et al., 2004).
 
 npm's gltfpack has no WebP: for -tw, gltf-transform makes the images WebP at quality 80 first, as gltfpack -tq 8 does.
@@ -20,7 +20,7 @@ import tempfile
 import numpy
 from PIL import Image
 
-VIEWS = "corner,front,back,left,right,top,bottom"
+VIEWS = ("corner", "front", "back", "left", "top")
 
 
 def coverings(picture):
@@ -55,18 +55,26 @@ class Comparison:
         except subprocess.TimeoutExpired:
             return None
 
+    def pictures(self, asset, file):
+        """Those of the asset and of the file, by the same cameras, one above the other."""
+        rows = []
+        for view in VIEWS:
+            pair = self.folder / "judge.png"
+            pair.unlink(missing_ok=True)
+            self.call(self.exe, "pipe", "-q", "load", asset, "!", "render", pair, "--with", file, "--view", view,
+                      "--width", self.pixels, "--height", self.pixels, "--edges", "no")
+            if not pair.exists():
+                return None
+            rows.append(numpy.asarray(Image.open(pair).convert("RGBA"), float))
+        both = numpy.concatenate(rows)
+        return both[:, :both.shape[1] // 2], both[:, both.shape[1] // 2:]
+
     def judged(self, asset, file):
         """(rms, ssim) of the file's pictures."""
-        sheet = self.folder / "judge.png"
-        sheet.unlink(missing_ok=True)
-        self.call(self.exe, "pipe", "-q", "load", asset, "!", "render", sheet, "--with", file, "--views", VIEWS,
-                  "--width", self.pixels, "--height", self.pixels, "--edges", "no")
-        if not sheet.exists():
+        pictures = self.pictures(asset, file)
+        if pictures is None:
             return None
-        both = numpy.asarray(Image.open(sheet).convert("RGBA"), float)
-        half = both.shape[1] // 2
-        black_a, white_a, in_a = coverings(both[:, :half])
-        black_b, white_b, in_b = coverings(both[:, half:])
+        (black_a, white_a, in_a), (black_b, white_b, in_b) = (coverings(p) for p in pictures)
         covered = in_a | in_b
         squares = ((black_a - black_b) ** 2 + (white_a - white_b) ** 2)[covered].mean() / 2
         luminance = numpy.array([0.2126, 0.7152, 0.0722])
@@ -80,9 +88,9 @@ class Comparison:
         webp.unlink(missing_ok=True)
         self.call(self.bin / "gltf-transform", "webp", asset, webp, "--quality", 80)
         source = webp if webp.exists() else asset
-        packed = {f"gltfpack -cc -si {ratio} -tw":
-                  lambda out, ratio=ratio: [self.bin / "gltfpack", "-cc", "-si", ratio, "-i", source, "-o", out]
-                  for ratio in ("0.5", "0.2")}
+        packed = {f"gltfpack -cc -si {how} -tw":
+                  lambda out, how=how: [self.bin / "gltfpack", "-cc", "-si", *how.split(), "-i", source, "-o", out]
+                  for how in ("0.5", "0.2 -se 0.1")}
         optimize = {"gltf-transform optimize":
                     lambda out: [self.bin / "gltf-transform", "optimize", asset, out, "--texture-compress", "webp",
                                  "--compress", "meshopt"]}
@@ -137,7 +145,7 @@ def main():
     for asset in (a.resolve() for a in options.assets):
         for peer, file in work.peers(asset).items():
             judged, size = work.judged(asset, file), file.stat().st_size
-            own = work.fitted(asset, "budget", budget=size)
+            own = work.fitted(asset, "budget", budget=f"{size}B")
             if own and own.stat().st_size > size:
                 raise SystemExit(f"{asset}: {own.stat().st_size} bytes for a budget of {size}")
             found = own and work.judged(asset, own)

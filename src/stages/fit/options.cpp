@@ -13,8 +13,11 @@ namespace {
 void may_be_off(Option& option, void (*unset)(FitOptions&)) {
     option.parse = [plain = option.parse, unset](const Option& self, const Value& v, void* target,
                                                  Problems& problems) {
-        if (!v.is_scalar() || v.deferred || !(v.text == "off" || v.as_bool() == false))
-            return plain(self, v, target, problems);
+        if (!v.is_scalar() || v.deferred || !(v.text == "off" || v.as_bool() == false)) {
+            Value unquoted = v; // a parameter of type text is quoted
+            unquoted.quoted = false;
+            return plain(self, unquoted, target, problems);
+        }
         unset(*static_cast<FitOptions*>(target));
         return true;
     };
@@ -63,6 +66,10 @@ void declare_fit(Declare<FitOptions>& d) {
     d.choice<std::string>("images", &FitOptions::images, formats,
                           "The format of images that become smaller. Others stay as they are.")
         .also_called("texture_format image_format");
+    d.option("max_size", &FitOptions::max_size,
+             "The longest side of an image, in pixels. Larger images always become smaller.")
+        .also_called("resize texture_size")
+        .between(16, 16384);
     d.option("drop_names", &FitOptions::drop_names, "As in write.");
 }
 

@@ -14,6 +14,7 @@ struct FitOptions {
     std::int64_t pixels = 512;
     Compression compression = Compression::meshopt;
     std::string images = "webp"; ///< a format of the stage textures
+    std::optional<std::int64_t> max_size;
     bool drop_names = false;
 
     std::size_t most_bytes() const { return budget ? static_cast<std::size_t>(*budget->max) : SIZE_MAX; }

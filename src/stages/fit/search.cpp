@@ -9,8 +9,10 @@ namespace facetmill::fit_stage {
 
 namespace {
 
-/// Mean squared differences above this (a root of 17 %) are not worth measuring.
-constexpr double hopeless = 0.03;
+constexpr int finest_quality = 85; // of images; above, files grow much faster than their likeness
+
+/// Mean squared differences above this are not worth measuring: a root of 17 %, or twice the given look.
+double hopeless(const FitOptions& o) { return o.look ? 4 * o.look->value * o.look->value : 0.03; }
 
 std::size_t triangles_of(const Scene& scene) {
     std::size_t count = 0;
@@ -78,7 +80,7 @@ void Search::measure_ratios() {
                                 {static_cast<double>(file.bytes) + more, like.difference(file.decoded)}};
         if (!curves_.ratios.empty() && now.cost.bytes > 0.995 * curves_.ratios.back().cost.bytes) break;
         curves_.ratios.push_back(now);
-        if (now.cost.error > hopeless || triangles_of(reduced) < fewest_triangles) break;
+        if (now.cost.error > hopeless(o_) || triangles_of(reduced) < fewest_triangles) break;
     }
 }
 
@@ -95,7 +97,7 @@ std::vector<MeasuredBits> Search::measured_bits(const std::vector<int>& ladder, 
         const MeasuredBits now{bits, 1 - static_cast<double>(file.bytes) / std::max(whole, 1.0),
                                like.difference(file.decoded)};
         all.push_back(now);
-        if (now.error > hopeless) break;
+        if (now.error > hopeless(o_)) break;
     }
     return all;
 }
@@ -113,24 +115,32 @@ void Search::measure_bits() {
         if (static_cast<double>(triangles_of(scene_)) * keep > enough_triangles) keep = r.keep;
     const Scene reduced = with_proxy(trials_.simplified(keep));
     const report::Likeness like(reduced, static_cast<int>(o_.pixels));
-    curves_.position = measured_bits({16, 14, 13, 12, 11, 10, 9, 8}, &Bits::position, reduced, like);
+    curves_.position = measured_bits({16, 14, 12, 11, 10, 9}, &Bits::position, reduced, like);
     if (has_attribute(scene_, "NORMAL"))
-        curves_.normal = measured_bits({12, 10, 8, 7, 6, 5, 4}, &Bits::normal, reduced, like);
+        curves_.normal = measured_bits({12, 10, 8, 7, 6, 5}, &Bits::normal, reduced, like);
     if (has_attribute(scene_, "TEXCOORD_"))
-        curves_.uv = measured_bits({14, 12, 11, 10, 9, 8}, &Bits::uv, reduced, like);
+        curves_.uv = measured_bits({14, 12, 11, 10, 9}, &Bits::uv, reduced, like);
+}
+
+ImageChoice Search::largest(std::size_t longest) const {
+    const auto most = static_cast<std::size_t>(o_.max_size.value_or(16384));
+    return longest > most ? ImageChoice{most, finest_quality} : ImageChoice{};
 }
 
 void Search::measure_images(bool of_normals) {
     const ImageSides whole = image_sides(scene_);
+    const std::size_t given = of_normals ? whole.normals : whole.colours;
     auto& curve = of_normals ? curves_.normals : curves_.colours;
-    curve = {{{}, {}}};
-    const std::size_t longest = of_normals ? whole.normals : whole.colours;
+    const ImageChoice first = largest(given);
+    if (first.side == 0) curve = {{{}, {}}};
+    const std::size_t longest = first.side > 0 ? first.side : given;
     constexpr std::size_t shortest = 16;
     for (std::size_t side = longest; side >= std::min(shortest, longest) && side > 0; side /= 2) {
         // Images that are larger than the pictures hardly change them, so one quality shows enough.
         const bool large = side > 2 * static_cast<std::size_t>(o_.pixels);
         bool hope = false;
-        for (const int quality : large ? std::vector<int>{80} : std::vector<int>{90, 70, 45, 20}) {
+        for (const int quality :
+             large ? std::vector<int>{finest_quality} : std::vector<int>{finest_quality, 55, 25}) {
             const ImageChoice choice{side, quality};
             const Scene made = trials_.with_images(scene_, of_normals ? ImageChoice{} : choice,
                                                    of_normals ? choice : ImageChoice{});
@@ -138,7 +148,8 @@ void Search::measure_images(bool of_normals) {
             const Cost cost{static_cast<double>(image_sides(made).bytes) - static_cast<double>(whole.bytes),
                             original_.difference(made)};
             curve.push_back({choice, cost});
-            hope |= cost.error < hopeless;
+            if (cost.error >= hopeless(o_)) break;
+            hope = true;
             if (o_.images == "png") break; // has no quality
         }
         if (!hope) break;
@@ -165,7 +176,8 @@ void Search::try_choices(const Model& model, int rounds, std::optional<Candidate
 
 Candidate Search::best() {
     ProgressSteps steps({1, 4, 2, 3, 3, 5});
-    const Candidate whole = tried({});
+    const ImageSides sides = image_sides(scene_);
+    const Candidate whole = tried({1, {}, largest(sides.colours), largest(sides.normals)});
     if (!o_.look && fits(whole)) return whole;
     steps.next();
     measure_ratios();

@@ -27,6 +27,8 @@ class Search {
 
   private:
     [[nodiscard]] Scene with_proxy(Scene scene) const;
+    /// The finest choice for images of a role with this longest side.
+    [[nodiscard]] ImageChoice largest(std::size_t longest) const;
     void measure_ratios();
     void measure_bits();
     void measure_images(bool of_normals);
