@@ -126,6 +126,7 @@ void Trials::write(Scene scene, const Bits& bits) const {
 }
 
 StageFiles files_of_fit(const FitOptions& o) {
+    if (o.path.text.empty()) return {}; // the plan reports it
     Value options = Value::map({});
     options.set("path", Value::scalar(o.path.text));
     if (o.path.text == "-") options.set("format", Value::scalar("glb"));
