@@ -38,9 +38,10 @@ std::vector<MeasuredRatio> dense(const std::vector<MeasuredRatio>& measured) {
         for (int k = 1; k < steps && i + 1 < measured.size(); ++k) {
             const MeasuredRatio &a = measured[i], &b = measured[i + 1];
             const double share = static_cast<double>(k) / steps;
-            all.push_back(
-                {between(a.keep, b.keep, share),
-                 {between(a.cost.bytes, b.cost.bytes, share), between(a.cost.error, b.cost.error, share)}});
+            // The first collapses already change pictures, so differences are interpolated linearly.
+            all.push_back({between(a.keep, b.keep, share),
+                           {between(a.cost.bytes, b.cost.bytes, share),
+                            a.cost.error + share * (b.cost.error - a.cost.error)}});
         }
     }
     return all;
