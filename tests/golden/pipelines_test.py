@@ -61,6 +61,25 @@ class Golden(Case):
                 text = json.dumps(theirs).replace(f"{self.dir}/{name}/", f"{self.dir}/j1/")
                 self.assertEqual(json.loads(text), mine, f"{name} gives another report than j1")
 
+    def test_web_holds_a_budget_or_names_what_would_fit(self):
+        self.mill("pipe", "generate", "--shape", "torus", "!", "write", "ring.ply")
+        web = ["run", "web", "-D", "input=ring.ply", "-D", "pixels=32"]
+        written = []
+        for threads in (1, 2):
+            self.mill(*web, "-D", "budget=4kB", "-j", threads, "--output-dir", f"j{threads}")
+            file = self.dir / f"j{threads}/ring.glb"
+            self.assertLessEqual(file.stat().st_size, 4000)
+            written.append(file.read_bytes())
+            self.check_report(json.loads((self.dir / f"j{threads}/ring.report.json").read_text()),
+                              self.files(self.dir / f"j{threads}"))
+        self.assertEqual(*written)
+        said = self.mill(*web, "-D", "budget=500", "--output-dir", "none", expect=1).stderr
+        self.assertFalse((self.dir / "none/ring.glb").exists())
+        fits = said.split("this would fit: budget: ")[1].split()[0]
+        self.mill(*web, "-D", f"budget={fits}", "--output-dir", "fits")
+        self.mill(*web, "-D", "look=2%", "--output-dir", "look")
+        self.assertLess((self.dir / "look/ring.glb").stat().st_size, 12000)
+
 
 for path in PIPELINES:
     if path.stem in ("convert", "view"):  # no report, no output but the report: doors_test.py
@@ -95,7 +114,8 @@ for path in FIGURES:
     def test(self, path=path):
         self.check_figure(path)
     setattr(Figures, "test_figure_" + path.stem.replace("-", "_"), test)
-for path in PIPELINES:  # those are Golden's
+Figures.test_web_holds_a_budget_or_names_what_would_fit = None  # those are Golden's
+for path in PIPELINES:
     setattr(Figures, "test_" + path.stem.replace("-", "_"), None)
 
 

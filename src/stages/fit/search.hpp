@@ -1,0 +1,52 @@
+#pragma once
+// Finds the best choice: it measures curves, predicts choices from them, and tries these as real files.
+
+#include "stages/fit/model.hpp"
+
+namespace facetmill::fit_stage {
+
+/// A choice with its real file.
+struct Candidate {
+    Choice choice;
+    std::size_t bytes = 0, triangles = 0;
+    double error = 0; ///< mean squared difference
+};
+
+class Search {
+  public:
+    /// The scene, the options and the context must outlive it.
+    Search(const Scene& scene, const FitOptions& o, Context& context);
+
+    /// The best choice, or what comes nearest to the limits. It tries at most 120 files and pictures.
+    [[nodiscard]] Candidate best();
+
+    const Trials& trials() const { return trials_; }
+    const report::Likeness& original() const { return original_; }
+    std::size_t tried() const { return tried_; }
+    bool fits(const Candidate& c) const;
+
+  private:
+    [[nodiscard]] Scene with_proxy(Scene scene) const;
+    /// The finest choice for images of a role with this longest side.
+    [[nodiscard]] ImageChoice largest(std::size_t longest) const;
+    void measure_ratios();
+    void measure_bits();
+    void measure_images(bool of_normals);
+    [[nodiscard]] std::vector<MeasuredBits> measured_bits(const std::vector<int>& ladder, int Bits::*member,
+                                                          const Scene& scene, const report::Likeness& like);
+    [[nodiscard]] Candidate tried(const Choice& choice);
+    void try_choices(const Model& model, int rounds, std::optional<Candidate>& best);
+    [[nodiscard]] bool better(const Candidate& a, const Candidate& b) const;
+    double aim_error() const { return o_.look ? o_.look->value * o_.look->value : 1; }
+
+    const Scene& scene_;
+    const FitOptions& o_;
+    Trials trials_;
+    report::Likeness original_;
+    Curves curves_;
+    std::vector<Candidate> known_;
+    std::size_t tried_ = 0;
+    double correction_ = 1; ///< predicted limit over the real one
+};
+
+} // namespace facetmill::fit_stage
