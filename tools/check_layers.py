@@ -42,6 +42,7 @@ PUBLIC = {
     "geometry/measure/pieces.hpp": "measures of meshes that come in pieces, for cells",
     "geometry/measure/statistics_fields.hpp": "the declared fields of statistics, which reports show",
     "geometry/normals/tangents.hpp": "tangents for maps of normals",
+    "geometry/normals/unit_vectors.hpp": "normals and weights as glTF requires them",
     "geometry/measure/shape_histograms.hpp": "histograms of edges and faces, which pages show",
     "geometry/deviation/signed_deviation.hpp": "signed distances, which pages show as colours",
     "geometry/render/colour_scale.hpp": "the colours of scales, for legends of pages",

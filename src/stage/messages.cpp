@@ -6,6 +6,8 @@ const RegisterMessages stage_messages{
     {"E-BOX", "A box has no extent, or one of its corners is missing.",
      "Give `min` and `max`, or `centre` and `size`. `max` must be greater than `min` along all three axes.",
      ErrorKind::usage},
+    {"E-REFERENCE", "The mesh file that a stage takes values from has no faces.",
+     "Give a mesh with faces with `with`."},
     {"W-BIND-POSE",
      "Stages work on the bind pose of a skinned part. Viewers and pictures show the pose of the joints, so a "
      "plane or box can cut a different place than you see.",

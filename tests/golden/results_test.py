@@ -89,6 +89,7 @@ RUNS = [
     "generate icosphere --subdivisions 4 ! write tileset.json --tiles.faces 500 --draco",
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
+    "load cubes.obj ! normals --with open.off ! remesh 0.3",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
 ]
 

@@ -117,9 +117,6 @@ class Text(Case):
         self.assertEqual(self.mill("docs", "Diff").stdout, self.mill("diff", "--help").stdout)
         self.assertEqual(self.mill("docs", "w-units").stdout, self.mill("explain", "W-UNITS").stdout)
         self.assertIn("did you mean 'simplify'?", self.mill("docs", "simplfy", expect=2).stderr)
-        for words in (["help", "remesh"], ["remesh", "a.ply"], ["pipe", "load", "a.ply", "!", "remesh"], ["stages", "remesh"]):
-            self.assertIn("split --max_edge 2%, simplify 40% --method shortest-edge, relax 3 --method taubin",
-                          self.mill(*words, expect=2).stderr)
         for words, choices, hint in ((["schema", "reprot"], "WHAT must be one of pipeline, report, batch, ", "did you mean 'report'?"),
                                      (["schema", "qqqq"], "diff-folders, found 'qqqq'", "see facetmill schema --help"),
                                      (["export", "--to=nin", "p.yaml"], "--to must be one of ninja, make, snakemake, found 'nin'",

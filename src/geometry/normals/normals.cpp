@@ -20,12 +20,18 @@ double angle_at(const Mesh& mesh, Index f, Index c) {
     return arc_tangent(length(cross(to, from)), dot(to, from));
 }
 
+/// The faces of a mesh, and how their normals are combined.
+struct FaceNormals {
+    std::vector<Vec3> units;   ///< [faces] normals; zero without area
+    std::vector<double> areas; ///< [faces] twice the areas, if they are the weights; empty: angles are
+    double least_cosine = 0;   ///< of the angle between the normals of faces that share a normal
+};
+
 /// Finds the corners of a vertex that share a normal, and those that also share a wedge.
 class SmoothFan {
   public:
-    SmoothFan(const Mesh& mesh, const std::vector<Index>& face_of, const std::vector<Vec3>& normals,
-              double least_cosine)
-        : mesh_(mesh), face_of_(face_of), normals_(normals), least_cosine_(least_cosine) {}
+    SmoothFan(const Mesh& mesh, const std::vector<Index>& face_of, const FaceNormals& normals)
+        : mesh_(mesh), face_of_(face_of), normals_(normals) {}
 
     /// Numbers the new wedges from 0, and assigns a wedge to each corner. Returns the number of wedges.
     Index number(std::span<const Index> corners, std::vector<Index>& wedge_of_corner) {
@@ -50,7 +56,10 @@ class SmoothFan {
         of_corner.assign(corners.size(), {});
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const Index c = corners[i], f = face_of_[c];
-            if (dot(normals_[f], normals_[f]) > 0) of_corner[root(i)] += normals_[f] * angle_at(mesh_, f, c);
+            const Vec3& normal = normals_.units[f];
+            if (dot(normal, normal) > 0)
+                of_corner[root(i)] +=
+                    normal * (normals_.areas.empty() ? angle_at(mesh_, f, c) : normals_.areas[f]);
         }
         for (std::size_t i = corners.size(); i-- > 0;) of_corner[i] = normalised(of_corner[root(i)]);
     }
@@ -74,8 +83,8 @@ class SmoothFan {
                                             corners.begin());
         };
         ring_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool agree) {
-            if (!agree ||
-                exceeds_feature_angle(dot(normals_[face_of_[c]], normals_[face_of_[d]]), least_cosine_))
+            if (!agree || exceeds_feature_angle(dot(normals_.units[face_of_[c]], normals_.units[face_of_[d]]),
+                                                normals_.least_cosine))
                 return;
             const std::size_t a = root(place(c)), b = root(place(d));
             roots_[std::max(a, b)] = std::min(a, b);
@@ -84,8 +93,7 @@ class SmoothFan {
 
     const Mesh& mesh_;
     const std::vector<Index>& face_of_;
-    const std::vector<Vec3>& normals_;
-    double least_cosine_;
+    const FaceNormals& normals_;
     OneRing ring_;
     std::vector<std::size_t> roots_; ///< indexed like the vertex's corners
     std::vector<Key> keys_;
@@ -112,16 +120,26 @@ void set_wedges(Mesh& mesh, const std::vector<Index>& wedge_of_corner, const std
     mesh.wedge_vertex = std::move(vertex_of);
 }
 
-void set_smooth_normals(Mesh& mesh, double feature_angle) {
-    std::vector<Vec3> normals(mesh.face_count());
-    parallel_for(normals.size(),
-                 [&](std::size_t f) { normals[f] = normalised(area_vector(mesh, static_cast<Index>(f))); });
+FaceNormals face_normals(const Mesh& mesh, bool by_area, double feature_angle) {
+    FaceNormals normals;
+    normals.units.resize(mesh.face_count());
+    if (by_area) normals.areas.resize(mesh.face_count());
+    normals.least_cosine = feature_angle >= pi ? -2 : cosine(feature_angle);
+    parallel_for(normals.units.size(), [&](std::size_t f) {
+        const Vec3 area = area_vector(mesh, static_cast<Index>(f));
+        normals.units[f] = normalised(area);
+        if (by_area) normals.areas[f] = length(area);
+    });
+    return normals;
+}
+
+void set_smooth_normals(Mesh& mesh, bool by_area, double feature_angle) {
+    const FaceNormals normals = face_normals(mesh, by_area, feature_angle);
     const auto face_of = corner_faces(mesh);
     const auto corners_at = corners_at_vertices(mesh);
-    const double least_cosine = feature_angle >= pi ? -2 : cosine(feature_angle);
     std::vector<Index> wedge_of_corner(mesh.corner_count()), first(mesh.vertex_count());
     parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
-        SmoothFan fan(mesh, face_of, normals, least_cosine);
+        SmoothFan fan(mesh, face_of, normals);
         for (std::size_t v = begin; v < end; ++v)
             first[v] = fan.number(corners_at.of(static_cast<Index>(v)), wedge_of_corner);
     });
@@ -133,7 +151,7 @@ void set_smooth_normals(Mesh& mesh, double feature_angle) {
     }
     std::vector<float> values(3 * mesh.wedge_count());
     parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
-        SmoothFan fan(mesh, face_of, normals, least_cosine);
+        SmoothFan fan(mesh, face_of, normals);
         std::vector<Vec3> of_corner;
         for (std::size_t v = begin; v < end; ++v) {
             const auto corners = corners_at.of(static_cast<Index>(v));
@@ -190,10 +208,11 @@ AttributeChanges give_normals(Mesh& mesh, NormalKind kind, double feature_angle)
             {"NORMAL", Domain::wedge, Role::normal, 3, false, std::vector<float>(3 * mesh.wedge_count())});
         set_facet_normals(mesh);
     } else
-        set_smooth_normals(mesh, feature_angle);
+        set_smooth_normals(mesh, kind == NormalKind::area, feature_angle);
     AttributeChanges changes{{"NORMAL", Domain::wedge, AttributeChange::Kind::recomputed,
-                              kind == NormalKind::flat
-                                  ? "the normals of the faces"
+                              kind == NormalKind::flat ? "the normals of the faces"
+                              : kind == NormalKind::area
+                                  ? "the mean of the surrounding faces, weighted by areas"
                                   : "the mean of the surrounding faces, weighted by angles"}};
     if (straighten_tangents(mesh))
         changes.push_back({"TANGENT", Domain::wedge, AttributeChange::Kind::recomputed,

@@ -8,6 +8,7 @@ namespace facetmill {
 enum class NormalKind {
     keep,   ///< unchanged
     smooth, ///< the mean of the face normals at each vertex, weighted by angles, up to feature edges
+    area,   ///< the same, weighted by the areas of the faces
     flat,   ///< the normals of the faces
     none,
 };
@@ -18,8 +19,9 @@ enum class NormalKind {
 /// two, consistently oriented faces, which meet at no more than the feature angle (radians; pi: any angle).
 /// The normal is the sum of their unit normals times their angles at the vertex (G. Thuermer and C.
 /// Wuethrich, "Computing vertex normals from polygonal facets", 1998), which does not depend on how flat
-/// areas are cut into triangles. Wedges split where normals differ. flat: see set_facet_normals. none: also
-/// removes TANGENT, and the changes of both by morph targets, because they would have no meaning.
+/// areas are cut into triangles. Wedges split where normals differ. area: large faces have more weight, which
+/// keeps them flat beside narrow bevels. flat: see set_facet_normals. none: also removes TANGENT, and the
+/// changes of both by morph targets, because they would have no meaning.
 ///
 /// Vertices that no face uses are dropped when wedges merge. Other attributes follow their wedges; tangents
 /// are made perpendicular again. Faces without area have no weight, and a corner with only such faces gets

@@ -70,8 +70,7 @@ This test is exact, and vertices that fail it do not move (W-CLEAN).
 With apart: false, no vertex moves.
 
 The step unit_vectors: true runs last.
-It scales normals, tangents and joint weights that the checks unit_normals and weights_normalized
-refuse.
+It mends normals, tangents and joint weights that glTF does not accept, as `normals: keep` does.
 Other values stay unchanged.
 
 Remaining elements keep their attributes.

@@ -123,8 +123,8 @@ void declare_clean(Declare<CleanOptions>& d) {
     d.option("tolerance", &CleanOptions::tolerance, "The distance for all steps that are set to near.")
         .above(0);
     d.option("unit_vectors", &CleanOptions::unit_vectors,
-             "Scales normals and tangents to length 1, and the joint weights of each wedge to the sum 1. A "
-             "normal without a direction is computed from the faces around it.")
+             "Scales normals and tangents to length 1, and the joint weights of each wedge to the sum 1, as "
+             "normals: keep does.")
         .also_called("normalize normalise normalize_weights renormalize");
     d.choice<bool>(
         "precision", &CleanOptions::single,

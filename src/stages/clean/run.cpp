@@ -1,10 +1,10 @@
 #include "base/text/words.hpp"
 #include "cells/process/clean_cells.hpp"
 #include "cells/process/inspect_cells.hpp"
+#include "geometry/normals/unit_vectors.hpp"
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
-#include "stages/clean/unit_vectors.hpp"
 
 #include <fmt/format.h>
 

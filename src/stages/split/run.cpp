@@ -74,9 +74,6 @@ struct SplitStage : StageOf<run> {
 const RegisterStage registered = make_stage<SplitStage>(
     {.name = "split",
      .also_called = "subdivide refine subdivision",
-     .chain = {"remesh remeshing isotropic_remesh isotropic_remeshing",
-               "three stages make edges of similar length: split: {max_edge: 2%}, simplify: {ratio: 40%, "
-               "method: shortest-edge}, relax: {iterations: 3, method: taubin}"},
      .about = help::split::about,
      .details = help::split::details,
      .examples = {"split: midpoint", "split: {method: bisect, passes: 3}", "split: {grid: 3}",

@@ -1,0 +1,17 @@
+#pragma once
+// Makes the working mesh, and finds what remeshing must keep.
+
+#include "geometry/remesh/working_mesh.hpp"
+
+namespace facetmill::remeshing {
+
+/// The working mesh of a triangle mesh. Faces with a repeated corner are left out, but keep their number in
+/// `regions_of_faces`. sizes and hints stay empty.
+struct LaidOut {
+    WorkingMesh mesh;
+    std::vector<Index> regions_of_faces; ///< [faces of the input] regions
+    std::size_t locked_edges = 0, dropped_faces = 0;
+};
+[[nodiscard]] LaidOut lay_out(const Mesh& mesh, double feature_angle);
+
+} // namespace facetmill::remeshing

@@ -1,0 +1,84 @@
+// Flips edges.
+#include "geometry/remesh/passes.hpp"
+
+namespace facetmill::remeshing {
+
+double shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, ac = c - a, bc = c - b;
+    const double squares = dot(ab, ab) + dot(ac, ac) + dot(bc, bc);
+    return squares > 0 ? 3.4641016151377544 * length(cross(ab, ac)) / squares : 0; // 2 sqrt(3)
+}
+
+namespace {
+
+/// The four vertices of two triangles, and what a flip makes of them.
+class Diagonals {
+  public:
+    Diagonals(const WorkingMesh& m, Index h)
+        : m_(m), a(m.from(h)), b(m.to(h)), c(m.opposite(h)), d(m.opposite(m.twins[h])) {}
+
+    [[nodiscard]] double shape_before() const { return std::min(shape(a, b, c), shape(b, a, d)); }
+    [[nodiscard]] double shape_after() const { return std::min(shape(a, d, c), shape(b, c, d)); }
+
+    /// Whether the flip keeps the topology, and both new faces look like both old ones.
+    [[nodiscard]] bool is_allowed() const {
+        if (c == d || m_.degrees[a] <= 3 || m_.degrees[b] <= 3) return false;
+        const auto many = [&](Index v) { return m_.kinds[v] == VertexKind::many; };
+        if (many(c) && many(d)) return false;
+        for (const Vec3& before : {m_.normal(a, b, c), m_.normal(b, a, d)})
+            for (const Vec3& after : {m_.normal(a, d, c), m_.normal(b, c, d)})
+                if (!may_turn(before, after) || !(dot(after, after) > 0)) return false;
+        return !m_.are_joined(c, d);
+    }
+
+    /// How far the numbers of edges at the vertices are from the best, as the sum of squares. edges: added to
+    /// those of c and d, and taken from those of a and b.
+    [[nodiscard]] int excess(int edges) const {
+        return square(a, -edges) + square(b, -edges) + square(c, edges) + square(d, edges);
+    }
+
+  private:
+    double shape(Index u, Index v, Index w) const {
+        return shape_of(m_.points[u], m_.points[v], m_.points[w]);
+    }
+    int square(Index v, int more) const {
+        if (m_.kinds[v] == VertexKind::many || m_.kinds[v] == VertexKind::fixed) return 0;
+        const int best = m_.kinds[v] == VertexKind::line && m_.is_border(v) ? 4 : 6;
+        const int off = static_cast<int>(m_.degrees[v]) + more - best;
+        return off * off;
+    }
+
+    const WorkingMesh& m_;
+    Index a, b, c, d;
+};
+
+template <class Better>
+std::size_t flip_where(WorkingMesh& m, Better&& better) {
+    std::size_t flips = 0;
+    for (Index h = 0; h < m.corners.size(); ++h) {
+        if (!m.stands(h) || m.flags[h] & feature) continue;
+        const Diagonals edge(m, h);
+        if (!better(edge) || !edge.is_allowed()) continue;
+        m.flip(h);
+        ++flips;
+    }
+    return flips;
+}
+
+} // namespace
+
+void flip_towards_six(WorkingMesh& m) {
+    flip_where(m, [](const Diagonals& edge) {
+        if (edge.excess(1) >= edge.excess(0)) return false;
+        const double after = edge.shape_after();
+        return after > 0.3 || after > edge.shape_before();
+    });
+}
+
+std::size_t flip_for_shape(WorkingMesh& m) {
+    // A hundredth: so that rounding never flips an edge back and forth.
+    return flip_where(m,
+                      [](const Diagonals& edge) { return edge.shape_after() > 1.01 * edge.shape_before(); });
+}
+
+} // namespace facetmill::remeshing
