@@ -3,6 +3,7 @@
 #include "base/fast_json.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/document/container.hpp"
+#include "mesh/drawn_box.hpp"
 #include "parallel/memory.hpp"
 
 #include <algorithm>
@@ -132,16 +133,16 @@ struct Numbers {
 };
 
 template <class T>
-const T* item(const std::vector<T>& all, int index) {
+const T* entry(const std::vector<T>& all, int index) {
     return index >= 0 && static_cast<std::size_t>(index) < all.size() ? &all[static_cast<std::size_t>(index)]
                                                                       : nullptr;
 }
 
 /// packed: a Draco array, which tinygltf stores without gaps whatever its view says.
 std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, bool packed) {
-    const auto* accessor = item(model.accessors, index);
-    const auto* view = accessor ? item(model.bufferViews, accessor->bufferView) : nullptr;
-    const auto* buffer = view ? item(model.buffers, view->buffer) : nullptr;
+    const auto* accessor = entry(model.accessors, index);
+    const auto* view = accessor ? entry(model.bufferViews, accessor->bufferView) : nullptr;
+    const auto* buffer = view ? entry(model.buffers, view->buffer) : nullptr;
     if (!buffer || accessor->sparse.isSparse) return std::nullopt;
     const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor->type));
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType));
@@ -187,15 +188,15 @@ void add(const tinygltf::Model& model, const tinygltf::Primitive& primitive, Con
             contents.known = false;
             return;
         }
-        contents.box.add({positions->number(v, 0), positions->number(v, 1), positions->number(v, 2)});
+        contents.box.add(Vec3{positions->number(v, 0), positions->number(v, 1), positions->number(v, 2)});
     }
 }
 
 void compare_parts(const tinygltf::Model& model, const Scene& scene, Differences& differences) {
     std::map<int, Contents> of_meshes;
     for (const Part& part : scene.parts) {
-        const auto* node = item(model.nodes, part.node);
-        const auto* mesh = node ? item(model.meshes, node->mesh) : nullptr;
+        const auto* node = entry(model.nodes, part.node);
+        const auto* mesh = node ? entry(model.meshes, node->mesh) : nullptr;
         if (!mesh) {
             differences.add(
                 fmt::format("part '{}': tinygltf finds no mesh at node {}", part.name, part.node));
