@@ -35,7 +35,8 @@ class Search {
     [[nodiscard]] std::vector<MeasuredBits> measured_bits(const std::vector<int>& ladder, int Bits::*member,
                                                           const Scene& scene, const report::Likeness& like);
     [[nodiscard]] Candidate tried(const Choice& choice);
-    void try_choices(const Model& model, int rounds, std::optional<Candidate>& best);
+    /// Tries up to this many new files.
+    void try_choices(const Model& model, std::size_t rounds, std::optional<Candidate>& best);
     [[nodiscard]] bool better(const Candidate& a, const Candidate& b) const;
     double aim_error() const { return o_.look ? o_.look->value * o_.look->value : 1; }
 
@@ -46,7 +47,7 @@ class Search {
     Curves curves_;
     std::vector<Candidate> known_;
     std::size_t tried_ = 0;
-    double correction_ = 1; ///< predicted limit over the real one
+    double correction_ = 1; ///< of the limit, because predictions err
 };
 
 } // namespace facetmill::fit_stage
