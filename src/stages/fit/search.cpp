@@ -43,6 +43,7 @@ bool Search::fits(const Candidate& c) const { return c.bytes <= o_.most_bytes() 
 
 /// With `look`, fewer bytes are better; otherwise less difference.
 bool Search::better(const Candidate& a, const Candidate& b) const {
+    if (fits(a) != fits(b)) return fits(a);
     if (o_.look ? a.bytes != b.bytes : a.error != b.error)
         return o_.look ? a.bytes < b.bytes : a.error < b.error;
     return o_.look ? a.error < b.error : a.bytes < b.bytes;
@@ -179,7 +180,7 @@ void Search::try_choices(const Model& model, std::size_t rounds, std::optional<C
     }
 }
 
-Candidate Search::best() {
+Candidate Search::best(const Search* other) {
     ProgressSteps steps({1, 4, 2, 3, 3, 5});
     const ImageSides sides = image_sides(scene_);
     const Candidate whole = tried({1, {}, largest(sides.colours), largest(sides.normals)});
@@ -189,9 +190,15 @@ Candidate Search::best() {
     steps.next();
     measure_bits();
     steps.next();
-    measure_images(false);
-    steps.next();
-    measure_images(true);
+    if (other && !other->curves_.colours.empty()) {
+        curves_.colours = other->curves_.colours;
+        curves_.normals = other->curves_.normals;
+        steps.next();
+    } else {
+        measure_images(false);
+        steps.next();
+        measure_images(true);
+    }
     steps.next();
     std::optional<Candidate> best;
     if (fits(whole)) best = whole;
