@@ -187,12 +187,13 @@ Scene run(Scene scene, const FitOptions& o, Context& context, FitReport& report)
         options.back().compression = all[i];
         Search& search = searches.emplace_back(subject, options.back(), context);
         const Candidate found = search.best(best);
-        report.tried += search.tried();
+        report.tried += search.trial_count();
         if (best && !search.better(found, chosen)) continue;
         best = &search;
         chosen = found;
         set_choice(report, chosen, options.back());
     }
+    if (!best) return scene;
     report.written = best->fits(chosen);
     if (report.written) write_choice(*best, chosen, subject, context, report);
     check_limits(report, o, context);

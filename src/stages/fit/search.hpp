@@ -23,7 +23,7 @@ class Search {
 
     const Trials& trials() const { return trials_; }
     const report::Likeness& original() const { return original_; }
-    std::size_t tried() const { return tried_; }
+    std::size_t trial_count() const { return tried_; }
     bool fits(const Candidate& c) const;
     /// Whether a is to be preferred. A candidate that fits is better than one that does not.
     [[nodiscard]] bool better(const Candidate& a, const Candidate& b) const;
