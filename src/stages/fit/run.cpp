@@ -73,9 +73,9 @@ void declare_report(DeclareFields<FitReport>& d) {
     d.field("triangles", &FitReport::triangles, "The triangles of the file.");
     d.field("keep", &FitReport::keep, "The chosen ratio of triangles.");
     d.choice("compression", &FitReport::compression,
-             {{"meshopt", Compression::meshopt, ""},
-              {"draco", Compression::draco, ""},
-              {"none", Compression::none, ""}},
+             {{"meshopt", Compression::meshopt, "EXT_meshopt_compression"},
+              {"draco", Compression::draco, "KHR_draco_mesh_compression"},
+              {"none", Compression::none, "float32"}},
              "How the meshes are compressed.");
     d.object("bits", &FitReport::bits, "The chosen bits.", declare_bits).only_when("the file is compressed");
     d.object("colours", &FitReport::colours, "The chosen size of colour images and other data.",
