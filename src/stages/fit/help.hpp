@@ -22,7 +22,7 @@ The similarity is 100 % less the difference.
 Skinned and morphed parts are compared as before any animation plays.
 Metalness and roughness are not drawn, so their images get the size and quality of the colours.
 
-At most 120 trials measure the effect of each choice, and the best combinations are written and
+At most 120 trials for each compression measure the effect of each choice, and the best combinations are written and
 rendered as a whole.
 Each trial is a real file in memory, and the limit applies to the written file with its neighbours.
 If no choice fits, the run fails (exit 1) and names the smallest size that it reached.

@@ -10,7 +10,7 @@ struct Cost {
     double bytes = 0, error = 0;
 };
 
-/// A measured ratio of triangles, with the finest bits.
+/// A measured ratio of triangles, with the finest bits. Bytes do not include images.
 struct MeasuredRatio {
     double keep = 1;
     Cost cost;
@@ -20,7 +20,7 @@ struct MeasuredBits {
     int bits = 0;
     double saved = 0, error = 0;
 };
-/// A measured size and quality of the images of a role: the bytes that they add to unchanged images.
+/// A measured size and quality of the images of a role. Bytes count once, with the colours.
 struct MeasuredImages {
     ImageChoice choice;
     Cost cost;

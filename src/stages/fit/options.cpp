@@ -56,6 +56,7 @@ void declare_fit(Declare<FitOptions>& d) {
         "compression", &FitOptions::compression,
         {{"meshopt", Compression::meshopt, "EXT_meshopt_compression"},
          {"draco", Compression::draco, "KHR_draco_mesh_compression"},
+         {"smallest", Compression::smallest, "the better of both, in twice the time"},
          {"none", Compression::none, "float32, which every reader supports"}},
         "How the meshes are compressed. none also keeps all bits of positions and normals.");
     std::vector<NamedChoice<std::string>> formats = {

@@ -5,7 +5,7 @@
 
 namespace facetmill::fit_stage {
 
-enum class Compression { meshopt, draco, none };
+enum class Compression { meshopt, draco, smallest, none };
 
 struct FitOptions {
     PathText path;

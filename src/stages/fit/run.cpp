@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "stage/read_written.hpp"
 #include "stages/fit/help.hpp"
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
 
 namespace facetmill::fit_stage {
@@ -20,6 +22,7 @@ struct FitReport {
     std::size_t bytes = 0, triangles = 0, tried = 0;
     double similarity = 0, difference = 0, keep = 1;
     std::int64_t pixels = 0;
+    Compression compression = Compression::meshopt;
     std::optional<Bits> bits;
     std::optional<ReportedImages> colours, normals;
     bool written = true;
@@ -29,6 +32,12 @@ std::string text_of(const std::optional<ReportedImages>& images, const char* wha
     return images
                ? fmt::format("; {} of at most {} pixels, quality {}", what, images->max_size, images->quality)
                : "";
+}
+
+const char* name_of(Compression compression) {
+    return compression == Compression::meshopt ? "meshopt"
+           : compression == Compression::draco ? "Draco"
+                                               : "no compression";
 }
 
 std::vector<std::string> lines_of(const FitReport& r) {
@@ -63,6 +72,11 @@ void declare_report(DeclareFields<FitReport>& d) {
     d.field("pixels", &FitReport::pixels, "The sides of the compared pictures.");
     d.field("triangles", &FitReport::triangles, "The triangles of the file.");
     d.field("keep", &FitReport::keep, "The chosen ratio of triangles.");
+    d.choice("compression", &FitReport::compression,
+             {{"meshopt", Compression::meshopt, "EXT_meshopt_compression"},
+              {"draco", Compression::draco, "KHR_draco_mesh_compression"},
+              {"none", Compression::none, "float32"}},
+             "How the meshes are compressed.");
     d.object("bits", &FitReport::bits, "The chosen bits.", declare_bits).only_when("the file is compressed");
     d.object("colours", &FitReport::colours, "The chosen size of colour images and other data.",
              declare_images)
@@ -90,6 +104,7 @@ void set_choice(FitReport& report, const Candidate& c, const FitOptions& o) {
     report.triangles = c.triangles;
     report.keep = c.choice.keep;
     report.pixels = o.pixels;
+    report.compression = o.compression;
     if (o.compression != Compression::none) report.bits = c.choice.bits;
     report.colours = reported(c.choice.colours);
     report.normals = reported(c.choice.normals);
@@ -159,12 +174,28 @@ void write_choice(const Search& search, const Candidate& chosen, const Scene& su
 
 Scene run(Scene scene, const FitOptions& o, Context& context, FitReport& report) {
     const Scene subject = selected(scene, context);
-    Search search(subject, o, context);
-    const Candidate chosen = search.best();
-    set_choice(report, chosen, o);
-    report.tried = search.tried();
-    report.written = search.fits(chosen);
-    if (report.written) write_choice(search, chosen, subject, context, report);
+    std::vector<Compression> all{o.compression};
+    if (o.compression == Compression::smallest) all = {Compression::meshopt, Compression::draco};
+    std::deque<FitOptions> options; // its elements stay where they are
+    std::deque<Search> searches;
+    const Search* best = nullptr;
+    Candidate chosen;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const ProgressScope share(static_cast<double>(i) / static_cast<double>(all.size()),
+                                  static_cast<double>(i + 1) / static_cast<double>(all.size()));
+        options.push_back(o);
+        options.back().compression = all[i];
+        Search& search = searches.emplace_back(subject, options.back(), context);
+        const Candidate found = search.best(best);
+        report.tried += search.trial_count();
+        if (best && !search.better(found, chosen)) continue;
+        best = &search;
+        chosen = found;
+        set_choice(report, chosen, options.back());
+    }
+    if (!best) return scene;
+    report.written = best->fits(chosen);
+    if (report.written) write_choice(*best, chosen, subject, context, report);
     check_limits(report, o, context);
     return scene;
 }
@@ -180,7 +211,7 @@ const RegisterStage registered = make_stage<FitStage>(
      .about = help::fit::about,
      .details = help::fit::details,
      .examples = {"fit: {path: web.glb, budget: 500kB}", "fit: {path: web.glb, look: 0.5%}",
-                  "fit: {path: web.glb, look: 1%, pixels: 1024, compression: draco}"},
+                  "fit: {path: web.glb, look: 1%, pixels: 1024, compression: smallest}"},
      .tells = true,
      .keeps_scene = true,
      .writes_scene = true,

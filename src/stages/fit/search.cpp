@@ -22,6 +22,11 @@ std::size_t triangles_of(const Scene& scene) {
     return count;
 }
 
+/// The bytes besides the scene's images. At least 1, because a file stores equal images once.
+double without_images(const TrialFile& file, const Scene& scene) {
+    return std::max(1.0, static_cast<double>(file.bytes) - static_cast<double>(image_sides(scene).bytes));
+}
+
 bool has_attribute(const Scene& scene, std::string_view prefix) {
     for (const Part& part : scene.parts)
         for (const Attribute& a : part.mesh.attributes)
@@ -38,6 +43,7 @@ bool Search::fits(const Candidate& c) const { return c.bytes <= o_.most_bytes() 
 
 /// With `look`, fewer bytes are better; otherwise less difference.
 bool Search::better(const Candidate& a, const Candidate& b) const {
+    if (fits(a) != fits(b)) return fits(a);
     if (o_.look ? a.bytes != b.bytes : a.error != b.error)
         return o_.look ? a.bytes < b.bytes : a.error < b.error;
     return o_.look ? a.error < b.error : a.bytes < b.bytes;
@@ -64,8 +70,6 @@ Scene Search::with_proxy(Scene scene) const {
 
 void Search::measure_ratios() {
     const Scene whole = with_proxy(scene_);
-    const double more =
-        static_cast<double>(image_sides(scene_).bytes) - static_cast<double>(image_sides(whole).bytes);
     const report::Likeness like(whole, static_cast<int>(o_.pixels));
     constexpr std::size_t levels = 14, fewest_triangles = 48;
     for (std::size_t level = 0; level < levels; ++level) {
@@ -76,8 +80,7 @@ void Search::measure_ratios() {
         const Scene reduced = with_proxy(trials_.simplified(keep));
         const TrialFile file = trials_.file(reduced, {}, false);
         ++tried_;
-        const MeasuredRatio now{keep,
-                                {static_cast<double>(file.bytes) + more, like.difference(file.decoded)}};
+        const MeasuredRatio now{keep, {without_images(file, reduced), like.difference(file.decoded)}};
         if (!curves_.ratios.empty() && now.cost.bytes > 0.995 * curves_.ratios.back().cost.bytes) break;
         curves_.ratios.push_back(now);
         if (now.cost.error > hopeless(o_) || triangles_of(reduced) < fewest_triangles) break;
@@ -93,9 +96,9 @@ std::vector<MeasuredBits> Search::measured_bits(const std::vector<int>& ladder, 
         choice.*member = bits;
         const TrialFile file = trials_.file(scene, choice, false);
         ++tried_;
-        if (all.empty()) whole = static_cast<double>(file.bytes);
-        const MeasuredBits now{bits, 1 - static_cast<double>(file.bytes) / std::max(whole, 1.0),
-                               like.difference(file.decoded)};
+        const double bytes = without_images(file, scene);
+        if (all.empty()) whole = bytes;
+        const MeasuredBits now{bits, 1 - bytes / whole, like.difference(file.decoded)};
         all.push_back(now);
         if (now.error > hopeless(o_)) break;
     }
@@ -132,7 +135,9 @@ void Search::measure_images(bool of_normals) {
     const std::size_t given = of_normals ? whole.normals : whole.colours;
     auto& curve = of_normals ? curves_.normals : curves_.colours;
     const ImageChoice first = largest(given);
-    if (first.side == 0) curve = {{{}, {}}};
+    // The bytes of all images belong to the colours, and those of normal maps are relative.
+    const double base = of_normals ? static_cast<double>(whole.bytes) : 0;
+    if (first.side == 0) curve = {{{}, {static_cast<double>(whole.bytes) - base, 0}}};
     const std::size_t longest = first.side > 0 ? first.side : given;
     constexpr std::size_t shortest = 16;
     for (std::size_t side = longest; side >= std::min(shortest, longest) && side > 0; side /= 2) {
@@ -145,8 +150,7 @@ void Search::measure_images(bool of_normals) {
             const Scene made = trials_.with_images(scene_, of_normals ? ImageChoice{} : choice,
                                                    of_normals ? choice : ImageChoice{});
             ++tried_;
-            const Cost cost{static_cast<double>(image_sides(made).bytes) - static_cast<double>(whole.bytes),
-                            original_.difference(made)};
+            const Cost cost{static_cast<double>(image_sides(made).bytes) - base, original_.difference(made)};
             curve.push_back({choice, cost});
             if (cost.error >= hopeless(o_)) break;
             hope = true;
@@ -157,24 +161,26 @@ void Search::measure_images(bool of_normals) {
 }
 
 /// Tries what the model predicts, and corrects the limit by the real file.
-void Search::try_choices(const Model& model, int rounds, std::optional<Candidate>& best) {
-    for (int round = 0; round < rounds; ++round) {
-        const ProgressScope share(static_cast<double>(round) / rounds, (round + 1.0) / rounds);
+void Search::try_choices(const Model& model, std::size_t rounds, std::optional<Candidate>& best) {
+    const std::size_t last = tried_ + rounds;
+    for (int step = 0; step < 60 && tried_ < last; ++step) {
         const double limit = o_.look ? aim_error() : static_cast<double>(o_.most_bytes());
         const auto choice =
             o_.look ? model.smallest_within(limit * correction_) : model.best_within(limit * correction_);
         if (!choice) return;
+        const std::size_t before = tried_;
         const Candidate c = tried(*choice);
+        const bool is_new = tried_ > before;
         if (fits(c) && (!best || better(c, *best))) best = c;
         const double real = o_.look ? c.error : static_cast<double>(c.bytes);
         const double nearest = o_.look ? 0.93 : 0.985; // closer is not worth another trial
-        if (real <= limit && real > nearest * limit) return;
+        if (real <= limit && (real > nearest * limit || !is_new)) return;
         const double factor = std::clamp(limit / std::max(real, 1e-12), 0.5, 2.0);
         correction_ *= real > limit ? 0.99 * factor : factor;
     }
 }
 
-Candidate Search::best() {
+Candidate Search::best(const Search* other) {
     ProgressSteps steps({1, 4, 2, 3, 3, 5});
     const ImageSides sides = image_sides(scene_);
     const Candidate whole = tried({1, {}, largest(sides.colours), largest(sides.normals)});
@@ -184,14 +190,21 @@ Candidate Search::best() {
     steps.next();
     measure_bits();
     steps.next();
-    measure_images(false);
-    steps.next();
-    measure_images(true);
+    if (other && !other->curves_.colours.empty()) {
+        curves_.colours = other->curves_.colours;
+        curves_.normals = other->curves_.normals;
+        steps.next();
+    } else {
+        measure_images(false);
+        steps.next();
+        measure_images(true);
+    }
     steps.next();
     std::optional<Candidate> best;
     if (fits(whole)) best = whole;
     const Model plain(curves_, 1);
     try_choices(plain, 6, best);
+    if (!best) try_choices(plain, 6, best); // the predictions were far off
     // Choices with more and with fewer triangles, because measured differences do not quite add up.
     for (const double weight : {1e4, 4.0, 0.3}) try_choices(Model(curves_, weight), 2, best);
     if (best) return *best;

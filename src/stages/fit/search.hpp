@@ -18,12 +18,15 @@ class Search {
     Search(const Scene& scene, const FitOptions& o, Context& context);
 
     /// The best choice, or what comes nearest to the limits. It tries at most 120 files and pictures.
-    [[nodiscard]] Candidate best();
+    /// other: a search with another compression, whose measured images are taken.
+    [[nodiscard]] Candidate best(const Search* other = nullptr);
 
     const Trials& trials() const { return trials_; }
     const report::Likeness& original() const { return original_; }
-    std::size_t tried() const { return tried_; }
+    std::size_t trial_count() const { return tried_; }
     bool fits(const Candidate& c) const;
+    /// Whether a is to be preferred. A candidate that fits is better than one that does not.
+    [[nodiscard]] bool better(const Candidate& a, const Candidate& b) const;
 
   private:
     [[nodiscard]] Scene with_proxy(Scene scene) const;
@@ -35,8 +38,8 @@ class Search {
     [[nodiscard]] std::vector<MeasuredBits> measured_bits(const std::vector<int>& ladder, int Bits::*member,
                                                           const Scene& scene, const report::Likeness& like);
     [[nodiscard]] Candidate tried(const Choice& choice);
-    void try_choices(const Model& model, int rounds, std::optional<Candidate>& best);
-    [[nodiscard]] bool better(const Candidate& a, const Candidate& b) const;
+    /// Tries up to this many new files.
+    void try_choices(const Model& model, std::size_t rounds, std::optional<Candidate>& best);
     double aim_error() const { return o_.look ? o_.look->value * o_.look->value : 1; }
 
     const Scene& scene_;
@@ -46,7 +49,7 @@ class Search {
     Curves curves_;
     std::vector<Candidate> known_;
     std::size_t tried_ = 0;
-    double correction_ = 1; ///< predicted limit over the real one
+    double correction_ = 1; ///< of the limit, because predictions err
 };
 
 } // namespace facetmill::fit_stage
