@@ -18,6 +18,8 @@
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      the Debian packages facetmill and facetmill-doc in build/release
 #   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
+#                 (ARCH="x86_64 aarch64" for both architectures, as make dist-arm64)
+#   make cross-check   compare outputs of the arm64 executable with those of x86-64, byte for byte
 #   make reproduce   build them again from a clone of this commit, and compare the bytes with dist/
 #   make test-dist   install these packages as users do, and run them (needs root for chroot)
 #   make format   run clang-format over the sources
@@ -33,7 +35,7 @@ TARGET ?= stages
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist reproduce test-dist format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist dist-arm64 cross-check reproduce test-dist format check-layers check-style clean
 all: build
 
 deps:
@@ -114,7 +116,13 @@ deb: build
 	cd $(BUILD) && cpack -G DEB
 
 dist: deps
-	@packaging/dist.sh dist
+	@ARCH="$(ARCH)" packaging/dist.sh dist
+
+dist-arm64:
+	@$(MAKE) --no-print-directory dist ARCH="x86_64 aarch64"
+
+cross-check:
+	@packaging/cross_check.py dist
 
 reproduce:
 	@packaging/reproduce.sh dist

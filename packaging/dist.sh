@@ -1,31 +1,61 @@
 #!/bin/sh
-# dist.sh [OUT]: builds everything that a release has, in OUT (dist): the static executable with its bill of materials,
-# the wheel, the npm packages, the image, and checksums, for x86-64. Without npm, its packages are left out with a message.
+# dist.sh [OUT]: builds everything that a release has, in OUT (dist): static executables with their bills of materials,
+# wheels, npm packages, the image, and checksums. Without npm, its packages are left out with a message.
+# ARCH lists the architectures, x86_64 and aarch64; by default that of this machine. Debian's cross compiler builds the
+# others, and qemu-user-static runs them. RELEASE is the build folder for this machine (build/release).
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$top/dist}
 build=${BUILD:-$top/build}
 jobs=${JOBS:-2}
-mkdir -p "$out"
-out=$(cd "$out" && pwd)
+machine=$(uname -m)
+mkdir -p "$out" "$build"
+out=$(cd "$out" && pwd) build=$(cd "$build" && pwd)
 cd "$top"
 packaging/check_version.sh
-
-packaging/linux/libraries.sh "$build/libraries"
-cmake --preset portable -B "$build/release" -DFACETMILL_LIBRARIES="$build/libraries" --log-level=NOTICE
-cmake --build "$build/release" -j "$jobs" --target facetmill_static
-
 version=$(cat VERSION)
 rm -f "$out"/facetmill-* "$out/SHA256SUMS"
-program=$out/facetmill-$version-linux-x86_64
-strip -o "$program" "$build/release/facetmill_static"
-python3 packaging/linux/sbom.py "$program" "$program.spdx.json"
-python3 packaging/python/wheel.py "$program" x86_64 "$out"
+
+debian_name() { case $1 in x86_64) echo amd64 ;; aarch64) echo arm64 ;; esac; }
+npm_name() { case $1 in x86_64) echo x64 ;; aarch64) echo arm64 ;; esac; }
+
+npm=
+image=
+for architecture in ${ARCH:-$machine}; do
+    name=$(debian_name "$architecture")
+    if [ "$architecture" = "$machine" ]; then
+        folder=${RELEASE:-$build/release} emulator='' strip=strip
+        packaging/linux/libraries.sh "$build/libraries"
+        cmake --preset portable -B "$folder" -DFACETMILL_LIBRARIES="$build/libraries" --log-level=NOTICE
+    elif [ "$architecture" != aarch64 ]; then
+        echo "$architecture cannot be built on $machine" >&2
+        exit 1
+    else
+        folder=$build/$name emulator=qemu-$architecture-static strip=$architecture-linux-gnu-strip
+        tools/deps.sh "--$name"
+        packaging/linux/sysroot.sh "$name" "$build/sysroot-$name"
+        packaging/linux/libraries.sh "$build/libraries-$name" "$build/sysroot-$name"
+        cmake --preset portable -B "$folder" -DFACETMILL_LIBRARIES="$build/libraries-$name" -DFACETMILL_TESTS=OFF \
+            -DCMAKE_TOOLCHAIN_FILE="$top/packaging/linux/toolchain.cmake" -DFACETMILL_SYSROOT="$build/sysroot-$name" \
+            --log-level=NOTICE
+    fi
+    cmake --build "$folder" -j "$jobs" --target facetmill_static
+    program=$out/facetmill-$version-linux-$architecture
+    "$strip" -o "$program" "$folder/facetmill_static"
+    # shellcheck disable=SC2086  # nothing, or the emulator
+    python3 packaging/linux/sbom.py "$program" "$program.spdx.json" $emulator
+    python3 packaging/python/wheel.py "$program" "$architecture" "$out"
+    npm="$npm $program $(npm_name "$architecture")"
+    image="$image $program $name"
+done
+
+# shellcheck disable=SC2086  # lists of programs and architectures
 if command -v npm >/dev/null; then
-    node packaging/npm/pack.mjs "$out" "$program" x64
+    node packaging/npm/pack.mjs "$out" $npm
 else
     echo "npm is missing: no npm packages" >&2
 fi
-python3 packaging/image/image.py "$out/facetmill-$version-image.tar" "$program" amd64
+# shellcheck disable=SC2086
+python3 packaging/image/image.py "$out/facetmill-$version-image.tar" $image
 (cd "$out" && find . -maxdepth 1 -type f ! -name SHA256SUMS -printf '%f\n' | LC_ALL=C sort | xargs sha256sum >SHA256SUMS)
 cat "$out/SHA256SUMS"

@@ -1,34 +1,39 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb]
+# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--arm64]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
 # shells and Meson, a second Draco reader, node for the glTF validator and axe-core, and clang for the style; --bench adds
 # what the benchmarks use, --site what the manual is made with, --browser the browser that tests open pages in, --fuzz what
-# libFuzzer needs, --deb what a Debian package is made with.
+# libFuzzer needs, --deb what a Debian package is made with, --arm64 a cross compiler and an emulator.
+# --libraries prints the packages of all libraries, for packaging/linux/sysroot.sh.
 set -eu
 
-build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
+tools="g++ cmake ninja-build mold pkg-config"
+libraries="libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
     libcli11-dev libfmt-dev libgmp-dev libtbb-dev libeigen3-dev libopenmesh-dev nettle-dev zlib1g-dev libzstd-dev libexpat1-dev
     libseccomp-dev libpng-dev libjpeg-dev libwebp-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"
 deb="dpkg-dev file"
+arm64="g++-aarch64-linux-gnu qemu-user-static"
 site="mkdocs mkdocs-material python3-yaml"
 browser="chromium"
 optional="ccache python3-yaml zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
 
-list=no wanted="$build $test"
+list=no wanted="$tools $libraries $test"
 for argument in "$@"; do
     case $argument in
     --list) list=yes ;;
+    --libraries) echo "$libraries" && exit ;;
     --all) wanted="$wanted $optional" ;;
     --bench) wanted="$wanted $bench" ;;
     --site) wanted="$wanted $site" ;;
     --browser) wanted="$wanted $browser" ;;
     --fuzz) wanted="$wanted $fuzz" ;;
     --deb) wanted="$wanted $deb" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb]" >&2; exit 2 ;;
+    --arm64) wanted="$wanted $arm64" ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--arm64]" >&2; exit 2 ;;
     esac
 done
 

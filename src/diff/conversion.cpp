@@ -1,5 +1,6 @@
 #include "diff/conversion.hpp"
 
+#include "base/math/portable_math.hpp"
 #include "mesh/surface.hpp"
 
 #include <algorithm>
@@ -76,12 +77,12 @@ UnitFactor unit_factor(double ratio, Unit first, Unit second) {
         return !both && stated != Unit::unknown && stated != unit;
     };
     UnitFactor best;
-    double nearest = std::abs(std::log(ratio));
+    double nearest = std::abs(logarithm(ratio));
     for (const Unit from : units)
         for (const Unit to : units) {
             if (stated_else(first, from) || stated_else(second, to)) continue;
             const double factor = metres(from) / metres(to);
-            const double off = std::abs(std::log(ratio / factor));
+            const double off = std::abs(logarithm(ratio / factor));
             if (off < nearest - 1e-9) {
                 best = {factor, from, to};
                 nearest = off;

@@ -1,6 +1,7 @@
 #include "stages/write/lattice.hpp"
 
 #include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
 #include "mesh/first_of_equal.hpp"
 #include "mesh/position_hash.hpp"
 #include "parallel/parallel.hpp"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -147,7 +149,9 @@ DistinctParts parts_sharing_grids(const Scene& scene, const std::vector<io::Part
         const double stretch =
             scene.parts[i].source_mesh >= 0 ? most[source_of(i)] : stretch_of(views[i].largest);
         // Float32 transforms of the same scale differ by less than a millionth.
-        return std::isfinite(stretch) ? std::llround(std::log2(stretch) * 0x1p20) : 0;
+        return stretch > 0 && std::isfinite(stretch)
+                   ? std::llround(logarithm(stretch) * std::numbers::log2e * 0x1p20)
+                   : 0;
     });
 }
 
