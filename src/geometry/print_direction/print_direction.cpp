@@ -17,13 +17,15 @@ namespace {
 
 Vec3 twice_area(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
 
-/// Sums area vectors by direction, in cells of 1/64, and gives their directions by falling area.
+/// Sums area vectors by direction, in cells of this size, and gives their directions by falling area.
 class DirectionTally {
   public:
+    explicit DirectionTally(double cell) : cells_(1 / cell) {}
+
     void add(const Vec3& area) {
         const Vec3 n = normalised(area);
         if (!is_finite(n) || n == Vec3{}) return;
-        Vec3& sum = sums_[{std::round(n.x * 64), std::round(n.y * 64), std::round(n.z * 64)}];
+        Vec3& sum = sums_[{std::round(n.x * cells_), std::round(n.y * cells_), std::round(n.z * cells_)}];
         sum += area;
     }
     std::vector<Vec3> largest(std::size_t most) const {
@@ -38,6 +40,7 @@ class DirectionTally {
     }
 
   private:
+    double cells_;
     std::map<std::array<double, 3>, Vec3> sums_;
 };
 
@@ -64,18 +67,28 @@ class PrintDirections {
     PrintDirectionResult run() const {
         std::vector<PrintDirection> tried = measured(candidates());
         const PrintDirection before = tried.front();
-        std::vector<PrintDirection> best = best_of(std::move(tried), 4);
-        for (PrintDirection& d : best) refine(d);
-        PrintDirection after = best.front();
-        for (const PrintDirection& d : best)
-            if (is_better(d, after)) after = d;
-        return {before, after};
+        for (PrintDirection& d : best_of(tried, 4, has_less_overhang)) {
+            refine(d, has_less_overhang);
+            tried.push_back(d);
+        }
+        const double limit =
+            std::min_element(tried.begin(), tried.end(), has_less_overhang)->overhang + total_ / 1000;
+        std::erase_if(tried, [&](const PrintDirection& d) { return d.overhang > limit; });
+        const auto is_lower = [&](const PrintDirection& a, const PrintDirection& b) {
+            return a.overhang <= limit && a.height < b.height;
+        };
+        for (PrintDirection& d : best_of(tried, 8, is_lower)) {
+            refine(d, is_lower);
+            tried.push_back(d);
+        }
+        return {before, nearest_of_lowest(tried)};
     }
 
   private:
     std::vector<Vec3> candidates() const {
         std::vector<Vec3> all{up_};
-        DirectionTally hull, own;
+        // Faces of the hull lie on the plate only in exactly their own direction.
+        DirectionTally hull(1.0 / 4096), own(1.0 / 64);
         for (const auto& t : hull_) hull.add(twice_area(t));
         for (const Vec3& area : areas_) own.add(area);
         for (const Vec3& n : hull.largest(128)) all.push_back(-n);
@@ -120,46 +133,59 @@ class PrintDirections {
         return all;
     }
 
-    bool is_better(const PrintDirection& a, const PrintDirection& b) const {
-        const auto differ = [](double x, double y, double scale) { return std::fabs(x - y) > 1e-9 * scale; };
-        if (differ(a.overhang, b.overhang, total_)) return a.overhang < b.overhang;
-        if (differ(a.height, b.height, box_.diagonal())) return a.height < b.height;
-        return dot(a.up, up_) > dot(b.up, up_) + 1e-9;
+    static bool has_less_overhang(const PrintDirection& a, const PrintDirection& b) {
+        return std::tie(a.overhang, a.height) < std::tie(b.overhang, b.height);
+    }
+
+    /// Rounding does not decide between equal heights: the smallest turn does.
+    PrintDirection nearest_of_lowest(const std::vector<PrintDirection>& all) const {
+        double height = HUGE_VAL;
+        for (const PrintDirection& d : all) height = std::min(height, d.height);
+        const PrintDirection* nearest = nullptr;
+        for (const PrintDirection& d : all)
+            if (d.height <= height + 1e-9 * box_.diagonal() &&
+                (!nearest || dot(d.up, up_) > dot(nearest->up, up_)))
+                nearest = &d;
+        return *nearest;
     }
 
     /// The best directions, each at least about 8 degrees from those before it.
-    std::vector<PrintDirection> best_of(std::vector<PrintDirection> all, std::size_t most) const {
+    template <class Better>
+    static std::vector<PrintDirection> best_of(std::vector<PrintDirection> all, std::size_t most,
+                                               const Better& is_better) {
         std::vector<PrintDirection> best;
+        best.reserve(most);
         while (best.size() < most && !all.empty()) {
-            std::size_t first = 0;
-            for (std::size_t i = 1; i < all.size(); ++i)
-                if (is_better(all[i], all[first])) first = i;
-            best.push_back(all[first]);
+            best.push_back(*std::min_element(all.begin(), all.end(), is_better));
             std::erase_if(all, [&](const PrintDirection& d) { return dot(d.up, best.back().up) > 0.99; });
         }
         return best;
     }
 
     /// Turns the direction in eight ways while this improves it.
-    void refine(PrintDirection& d) const {
+    template <class Better>
+    void refine(PrintDirection& d, const Better& is_better) const {
         for (double step = 0.14; step > 0.008; step /= 2)
             for (int tries = 0; tries < 8; ++tries) {
-                const Vec3 side = normalised(std::fabs(d.up.x) < 0.9 ? cross(d.up, Vec3{1, 0, 0})
-                                                                     : cross(d.up, Vec3{0, 1, 0}));
-                const Vec3 other = cross(d.up, side);
-                std::vector<Vec3> around;
-                for (int i = -1; i <= 1; ++i)
-                    for (int j = -1; j <= 1; ++j)
-                        if (i != 0 || j != 0)
-                            around.push_back(normalised(d.up + side * (i * step) + other * (j * step)));
                 bool improved = false;
-                for (const PrintDirection& near : measured(around))
+                for (const PrintDirection& near : measured(around(d.up, step)))
                     if (is_better(near, d)) {
                         d = near;
                         improved = true;
                     }
                 if (!improved) break;
             }
+    }
+    static std::vector<Vec3> around(const Vec3& up, double step) {
+        const Vec3 side =
+            normalised(std::fabs(up.x) < 0.9 ? cross(up, Vec3{1, 0, 0}) : cross(up, Vec3{0, 1, 0}));
+        const Vec3 other = cross(up, side);
+        std::vector<Vec3> all;
+        all.reserve(8);
+        for (int i = -1; i <= 1; ++i)
+            for (int j = -1; j <= 1; ++j)
+                if (i != 0 || j != 0) all.push_back(normalised(up + side * (i * step) + other * (j * step)));
+        return all;
     }
 
     const Surface& surface_;
