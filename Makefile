@@ -54,13 +54,22 @@ tests: configure
 INSTALLED := $(if $(filter demo,$(MAKECMDGOALS)),$(shell \
     [ "$$(facetmill --version 2>&1)" = "facetmill $$(cat VERSION)" ] && command -v facetmill))
 
-demo: $(if $(INSTALLED),,build)
+# Else one that was built before, else one that is built in the cheapest way. All write the same bytes.
+BUILT := $(wildcard $(BUILD)/facetmill)
+DEMO := $(or $(INSTALLED),$(BUILT),build/demo/facetmill)
+
+build/demo/facetmill: deps
+	@cmake --preset demo --log-level=NOTICE
+	@cmake --build --preset demo -j $(JOBS)
+
+demo: $(if $(INSTALLED),,$(if $(BUILT),build,build/demo/facetmill))
 	@mkdir -p out
 	$(if $(INSTALLED),@echo "$(INSTALLED) is of this version and is used. make build builds from these sources.")
-	$(or $(INSTALLED),$(BUILD)/facetmill) run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
+	$(DEMO) run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
 	@echo
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
+	$(if $(findstring build/demo,$(DEMO)),@echo "build/demo/facetmill is slow, because it was built without optimisation: make build builds a fast one.")
 
 test: tests
 	@tests/conformance/setup.sh $(BUILD)/conformance || echo "The tests go on without the glTF validator and axe-core." >&2
