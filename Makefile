@@ -17,6 +17,7 @@
 #                 those of the stages' pages and the gallery, with the site around them
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      the Debian packages facetmill and facetmill-doc in build/release
+#   make deb-arm64   the same for arm64, in build/arm64; after make dist-arm64
 #   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
 #                 (ARCH="x86_64 aarch64" for both architectures, as make dist-arm64)
 #   make cross-check   compare outputs of the arm64 executable with those of x86-64, byte for byte
@@ -33,9 +34,10 @@ MINUTES ?= 10
 FIRST ?= 1
 TARGET ?= stages
 BUILD := build/$(PRESET)
+SYSROOT ?= $(CURDIR)/build/sysroot-arm64
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb dist dist-arm64 cross-check reproduce test-dist format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb deb-arm64 dist dist-arm64 cross-check reproduce test-dist format check-layers check-style clean
 all: build
 
 deps:
@@ -54,13 +56,22 @@ tests: configure
 INSTALLED := $(if $(filter demo,$(MAKECMDGOALS)),$(shell \
     [ "$$(facetmill --version 2>&1)" = "facetmill $$(cat VERSION)" ] && command -v facetmill))
 
-demo: $(if $(INSTALLED),,build)
+# Else one that was built before, else one that is built in the cheapest way. All write the same bytes.
+BUILT := $(wildcard $(BUILD)/facetmill)
+DEMO := $(or $(INSTALLED),$(BUILT),build/demo/facetmill)
+
+build/demo/facetmill: deps
+	@cmake --preset demo --log-level=NOTICE
+	@cmake --build --preset demo -j $(JOBS)
+
+demo: $(if $(INSTALLED),,$(if $(BUILT),build,build/demo/facetmill))
 	@mkdir -p out
 	$(if $(INSTALLED),@echo "$(INSTALLED) is of this version and is used. make build builds from these sources.")
-	$(or $(INSTALLED),$(BUILD)/facetmill) run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
+	$(DEMO) run quickstart -D input=examples/data/nefertiti.ply -D unit=mm -D up=y --output-dir out
 	@echo
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
+	$(if $(findstring build/demo,$(DEMO)),@echo "build/demo/facetmill is slow, because it was built without optimisation: make build builds a fast one.")
 
 test: tests
 	@tests/conformance/setup.sh $(BUILD)/conformance || echo "The tests go on without the glTF validator and axe-core." >&2
@@ -114,6 +125,11 @@ install: build
 deb: build
 	@tools/deps.sh --deb
 	cd $(BUILD) && cpack -G DEB
+
+deb-arm64:
+	@cmake --build build/arm64 -j $(JOBS) --target facetmill manual
+	cd build/arm64 && export DEB_HOST_ARCH=arm64 DPKG_ADMINDIR="$(SYSROOT)/var/lib/dpkg" \
+	    LD_LIBRARY_PATH="$(SYSROOT)/usr/lib/aarch64-linux-gnu:$(SYSROOT)/lib/aarch64-linux-gnu" && cpack -G DEB
 
 dist: deps
 	@ARCH="$(ARCH)" packaging/dist.sh dist

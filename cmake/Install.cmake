@@ -21,7 +21,7 @@ function(write_text file)
   get_filename_component(folder ${file} DIRECTORY)
   add_custom_command(OUTPUT ${file}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
-    COMMAND $<TARGET_FILE:facetmill> ${ARGN} > ${file}.part
+    COMMAND facetmill ${ARGN} > ${file}.part
     COMMAND ${CMAKE_COMMAND} -E rename ${file}.part ${file}
     DEPENDS facetmill COMMENT "Writing ${file}" VERBATIM)
   set(written ${written} ${file} PARENT_SCOPE)

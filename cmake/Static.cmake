@@ -34,7 +34,7 @@ add_executable(facetmill_static src/cli/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/gen
 set(static_libraries "")
 foreach(library OpenMeshTools OpenMeshCore draco yaml-cpp nettle png16 z jpeg webp sharpyuv zstd expat seccomp
                 meshoptimizer mpfr gmp tbb fmt)
-  find_library(static_${library} lib${library}.a HINTS ${FACETMILL_LIBRARIES}/lib)
+  find_library(static_${library} lib${library}.a HINTS ${FACETMILL_LIBRARIES}/lib NO_CACHE)
   if(static_${library})
     list(APPEND static_libraries ${static_${library}})
   elseif(NOT library STREQUAL sharpyuv)

@@ -2,7 +2,8 @@
 # dist.sh [OUT]: builds everything that a release has, in OUT (dist): static executables with their bills of materials,
 # wheels, npm packages, the image, and checksums. Without npm, its packages are left out with a message.
 # ARCH lists the architectures, x86_64 and aarch64; by default that of this machine. Debian's cross compiler builds the
-# others, and qemu-user-static runs them. RELEASE is the build folder for this machine (build/release).
+# others, and qemu-user-static runs them. RELEASE is the build folder for this machine (build/release),
+# and SYSROOT the folder of sysroot.sh (build/sysroot-arm64).
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$top/dist}
@@ -31,12 +32,12 @@ for architecture in ${ARCH:-$machine}; do
         echo "$architecture cannot be built on $machine" >&2
         exit 1
     else
-        folder=$build/$name emulator=qemu-$architecture-static strip=$architecture-linux-gnu-strip
+        folder=$build/$name sysroot=${SYSROOT:-$build/sysroot-$name} emulator=qemu-$architecture-static strip=$architecture-linux-gnu-strip
         tools/deps.sh "--$name"
-        packaging/linux/sysroot.sh "$name" "$build/sysroot-$name"
-        packaging/linux/libraries.sh "$build/libraries-$name" "$build/sysroot-$name"
+        packaging/linux/sysroot.sh "$name" "$sysroot"
+        packaging/linux/libraries.sh "$build/libraries-$name" "$sysroot"
         cmake --preset portable -B "$folder" -DFACETMILL_LIBRARIES="$build/libraries-$name" -DFACETMILL_TESTS=OFF \
-            -DCMAKE_TOOLCHAIN_FILE="$top/packaging/linux/toolchain.cmake" -DFACETMILL_SYSROOT="$build/sysroot-$name" \
+            -DCMAKE_TOOLCHAIN_FILE="$top/packaging/linux/toolchain.cmake" -DFACETMILL_SYSROOT="$sysroot" \
             --log-level=NOTICE
     fi
     cmake --build "$folder" -j "$jobs" --target facetmill_static

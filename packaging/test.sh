@@ -35,6 +35,31 @@ mkdir -p "$root/$deep" && cp "$root/a.glb" "$root/$deep/"
 env -i "$(command -v chroot)" "$root" /facetmill pipe -q --report "/$deep/r.html" load "/$deep/a.glb" ! write "/$deep/b.glb"
 refuses 'set FACETMILL_CACHE' env -i "$(command -v chroot)" "$root" /facetmill pipe -q --cache generate cube ! measure
 
+name=$(printf 'n%.0s' $(seq 300))
+refuses 'each name in it may have 255 bytes' chroot "$root" /facetmill pipe -q generate cube ! write "$name.glb"
+
+if unshare --mount true 2>/dev/null; then
+    say "read-only file system"
+    read_only() { # read_only ARGUMENT...: runs the program in a root that nobody can write to
+        unshare --mount sh -c 'root=$1 && shift && mount --bind "$root" "$root" && mount -o remount,bind,ro "$root" && chroot "$root" "$@"' \
+            sh "$root" /facetmill "$@"
+    }
+    read_only info /a.glb >/dev/null
+    refuses 'E-WRITE.*Read-only file system' read_only pipe -q generate cube ! write b.glb
+    refuses 'write elsewhere' read_only run quickstart -q -D input=/a.glb --output-dir out
+fi
+
+emulator=$(command -v qemu-aarch64-static || true)
+foreign=$dist/facetmill-$version-linux-aarch64
+if [ -e "$foreign" ] && [ -n "$emulator" ]; then
+    say "arm64 in an empty root, emulated"
+    [ "$(stat -c %s "$foreign")" -le 25000000 ] || { echo "the executable is larger than 25 MB" >&2 && exit 1; }
+    mkdir "$work/arm64" && cp "$foreign" "$work/arm64/facetmill" && cp "$emulator" "$work/arm64/qemu"
+    chroot "$work/arm64" /qemu /facetmill --version
+    chroot "$work/arm64" /qemu /facetmill pipe -q generate torus ! split midpoint ! write a.glb ! write a.draco.glb --draco 2>/dev/null
+    for file in a.glb a.draco.glb; do cmp "$work/arm64/$file" "$root/$file"; done
+fi
+
 if command -v strace >/dev/null; then
     say "no lookup of a library at start; a kernel without the calls that came after 4.18"
     strace -f -o "$work/trace" "$program" --version >/dev/null
