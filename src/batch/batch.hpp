@@ -55,6 +55,7 @@ struct Settings {
     std::vector<std::filesystem::path> read;   ///< other files that are read: the pipeline, lists, a table
     int jobs = 0;                              ///< number of concurrent assets and threads; 0: see run
     std::uint64_t memory = 0; ///< bytes for all concurrent assets; 0: three quarters of the available memory
+    bool by_cause = false;    ///< see Summary
     double time_limit = 0;    ///< seconds for each asset, or 0 for no limit
     bool keep_going = false;  ///< continues after a failure
     bool prune = false;       ///< removes outputs whose source is gone
@@ -100,6 +101,7 @@ struct Outcome {
     double seconds = 0;
     Figures figures;
     std::vector<std::string> outputs; ///< relative to the output folder of the batch
+    std::vector<std::string> reports; ///< the same
     std::vector<Diagnostic> warnings, errors;
     std::string customer; ///< why the model was rejected, in plain words for its owner
     std::string picture;  ///< a PNG in base64, or empty
@@ -111,6 +113,7 @@ struct Summary {
     std::vector<Outcome> outcomes; ///< outcomes of the assets
     std::vector<std::string> pruned;
     std::vector<Diagnostic> warnings, errors; ///< diagnostics of the batch as a whole
+    bool by_cause = false; ///< reports list causes instead of assets, so their size does not grow with the assets
     int exit_code = 0;                        ///< the worst exit code
     int jobs = 0;
     double seconds = 0;

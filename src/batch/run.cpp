@@ -47,6 +47,7 @@ Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     out.figures = figures_of(record);
     if (record.exit_code != 0) out.customer = report::customer_text(record);
     for (const auto& file : record.outputs) out.outputs.push_back(from_folder(asset, file.path));
+    for (const auto& report : record.reports) out.reports.push_back(from_folder(asset, report));
     for (auto& stage : record.stages)
         if (!stage.picture.empty()) out.picture = std::move(stage.picture);
     return out;
@@ -75,6 +76,9 @@ Outcome kept_outcome(const Done& done) {
     out.kept = true;
     out.figures = done.figures;
     out.outputs = done.written;
+    for (const auto& file : done.outputs) // the rest are reports
+        if (std::find(out.outputs.begin(), out.outputs.end(), file.path) == out.outputs.end())
+            out.reports.push_back(file.path);
     for (const auto& [id, message] : done.warnings)
         out.warnings.push_back({Severity::warning, id, message, {}, {}});
     out.picture = done.picture;
@@ -251,6 +255,7 @@ class BatchRun {
         : settings_(settings), listener_(listener), works_(std::move(works)),
           journal_(settings.output_dir, settings.pipeline) {
         summary_.pipeline = settings.pipeline;
+        summary_.by_cause = settings.by_cause;
         for (const auto& work : works_)
             for (const auto& input : work.inputs) claims_.read(input, work.asset.name);
         for (const auto& work : works_) summary_.assets.push_back(work.asset);

@@ -1,6 +1,6 @@
 // The JSON documents of a batch: their declarations, and their schema.
 
-#include "batch/batch.hpp"
+#include "batch/causes.hpp"
 #include "batch/words.hpp"
 #include "io/rows.hpp"
 #include "report/record_fields.hpp"
@@ -92,6 +92,8 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
          "The unit of lengths, areas and volumes, or unknown.")
         .null_when(not_measured);
     d.field("outputs", of_outcome(&Outcome::outputs), "The written files, relative to the output folder.");
+    d.field("reports", of_outcome(&Outcome::reports),
+            "The asset's own reports, relative to the output folder.");
     refer(d.list("errors", of_outcome(&Outcome::errors), "The errors of the asset.",
                  report::declare_diagnostic<Diagnostic>),
           "diagnostic");
@@ -120,6 +122,20 @@ bool is_passed(const Summary& summary) {
     return summary.exit_code == 0 && count(summary, Outcome::Verdict::ok) == summary.assets.size();
 }
 
+void declare_cause(DeclareFields<Cause>& d) {
+    d.choice("severity", &Cause::severity,
+             std::vector<NamedChoice<Severity>>{{"error", Severity::error, ""},
+                                                {"warning", Severity::warning, ""},
+                                                {"note", Severity::note, ""}},
+             "");
+    d.field("id", &Cause::id, "");
+    d.field("about", &Cause::about, "The property of a check, or the warning that --strict made an error.");
+    d.field("assets", &Cause::assets, "The number of assets.");
+    d.field("messages", &Cause::messages, "The number of messages.");
+    d.field("first_asset", &Cause::first_asset, "The first asset in the order of the inputs.");
+    d.field("first_message", &Cause::first_message, "Its message.");
+}
+
 const Fields& asset_fields() {
     static const Fields fields = fields_of<AssetOutcome>(declare_asset);
     return fields;
@@ -138,8 +154,16 @@ const Fields& summary_fields() {
                      report::declare_diagnostic<Diagnostic>),
               "diagnostic");
         d.list(
-            "assets", [](const Summary& summary) { return outcomes_of(summary, worst_first(summary)); },
-            "The assets, the most severe failures first.", declare_asset);
+            "causes", [](const Summary& summary) { return causes_of(summary); },
+            "The errors and warnings by cause: errors first, then by the number of assets.", declare_cause);
+        d.list(
+            "assets",
+            [](const Summary& summary) {
+                return summary.by_cause ? std::nullopt
+                                        : std::optional(outcomes_of(summary, worst_first(summary)));
+            },
+            "The assets, the most severe failures first.", declare_asset)
+            .only_when("--summary by-id is not given");
     });
     return fields;
 }

@@ -40,6 +40,7 @@ Examples
 
 struct BatchOptions : AssetOptions {
     bool keep_going = false, prune = false;
+    std::string summary;             ///< by-asset or by-id
     std::vector<std::string> tables; ///< files with a row per asset
     double overhang_angle = 45;      ///< in degrees
     std::string time_limit;          ///< as given
@@ -58,7 +59,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--prune", &options.prune,
                   "Removes outputs of earlier batches whose input no longer exists.");
     arguments.add("--report", &options.common.reports,
-                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
+                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt. - writes JSON to standard\noutput.");
     arguments.add(
         "--time-limit", &options.time_limit,
         "The time for each asset: 30s, 500ms, 5min or 1h. An asset that takes longer fails (E-TIME), "
@@ -70,6 +71,11 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
         .add("--overhang-angle", &options.overhang_angle,
              "The slope in degrees below which faces count as overhangs in --table-out. Default: 45.")
         .not_negative();
+    arguments
+        .add("--summary", &options.summary,
+             "by-asset lists every asset. by-id groups errors and warnings by id, on the terminal in at most "
+             "ten\nlines. Reports then list no assets; --table-out does.")
+        .one_of({"by-asset", "by-id"});
     arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
     add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
@@ -119,11 +125,13 @@ class BatchBar {
 
 /// Prints the messages of a finished asset together.
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const batch::Summary& so_far,
-                const Console& console) {
+                const Console& console, bool by_cause) {
     WarningLimiter few(console);
-    if (!out.kept)
+    const bool tells = !by_cause || console.json; // otherwise the summary tells the causes
+    if (!out.kept && tells)
         for (const auto& warning : out.warnings) few.tell(warning);
-    for (const auto& error : out.errors) few.tell(error);
+    if (tells)
+        for (const auto& error : out.errors) few.tell(error);
     few.finish();
     console.event({{"level", "info"},
                    {"event", "asset"},
@@ -181,10 +189,11 @@ void tell_summary(const batch::Summary& summary, const BatchOptions& options, co
 batch::Listener listener_for(const BatchOptions& options, const Folders& places, const Console& console,
                              const std::shared_ptr<BatchBar>& bar) {
     batch::Listener listener;
-    listener.on_finished = [&console, bar](const batch::Asset& asset, const batch::Outcome& out,
+    const bool by_cause = options.summary == "by-id";
+    listener.on_finished = [&console, bar, by_cause](const batch::Asset& asset, const batch::Outcome& out,
                                            const batch::Summary& so_far) {
         bar->clear();
-        tell_asset(asset, out, so_far, console);
+        tell_asset(asset, out, so_far, console, by_cause);
         bar->draw(so_far);
     };
     if (console.verbose || console.json)
@@ -227,6 +236,7 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     settings.memory = memory_bytes(options.memory, line);
     set_memory_limit(settings.memory);
     settings.keep_going = options.keep_going;
+    settings.by_cause = options.summary == "by-id";
     settings.time_limit = seconds_of(options.time_limit, line);
     settings.prune = options.prune;
     settings.check_invariants = options.common.check_invariants;
