@@ -55,9 +55,12 @@ struct Settings {
     std::vector<std::filesystem::path> read;   ///< other files that are read: the pipeline, lists, a table
     int jobs = 0;                              ///< number of concurrent assets and threads; 0: see run
     std::uint64_t memory = 0; ///< bytes for all concurrent assets; 0: three quarters of the available memory
+    bool by_cause = false;    ///< see Summary
+    double time_limit = 0;    ///< seconds for each asset, or 0 for no limit
     bool keep_going = false;  ///< continues after a failure
     bool prune = false;       ///< removes outputs whose source is gone
     bool pictures = false;    ///< makes pictures for outcomes
+    std::optional<ModelRowSettings> model_row = {}; ///< measures each model
     bool check_invariants = false;
     bool rehearse = false;            ///< predicts outputs with pipeline::rehearsed_headers
     bool sync = true;                 ///< see io::CommitSettings
@@ -98,8 +101,10 @@ struct Outcome {
     double seconds = 0;
     Figures figures;
     std::vector<std::string> outputs; ///< relative to the output folder of the batch
+    std::vector<std::string> reports; ///< the same
     std::vector<Diagnostic> warnings, errors;
-    std::string picture; ///< a PNG in base64, or empty
+    std::string customer; ///< why the model was rejected, in plain words for its owner
+    std::string picture;  ///< a PNG in base64, or empty
 };
 
 struct Summary {
@@ -108,6 +113,7 @@ struct Summary {
     std::vector<Outcome> outcomes; ///< outcomes of the assets
     std::vector<std::string> pruned;
     std::vector<Diagnostic> warnings, errors; ///< diagnostics of the batch as a whole
+    bool by_cause = false; ///< reports list causes instead of assets, so their size does not grow with the assets
     int exit_code = 0;                        ///< the worst exit code
     int jobs = 0;
     double seconds = 0;
@@ -150,6 +156,10 @@ struct Listener {
 [[nodiscard]] std::string render_for(const std::string& path, const Summary& summary);
 /// The JSON Schema of the report in JSON.
 [[nodiscard]] Json summary_schema();
+/// Writes a table with a row per asset in the order of the inputs, as CSV, or as JSON lines for a suffix
+/// .jsonl. The columns are the plain values of an asset in the JSON report. put receives it piece by piece.
+void write_rows(const std::string& path, const Summary& summary,
+                const std::function<void(std::string_view)>& put);
 /// Times, threads and skipped assets, as JSON.
 [[nodiscard]] std::string timings_text(const Summary& summary);
 

@@ -8,6 +8,7 @@
 #include "report/html_parts.hpp"
 #include "report/markdown_parts.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::batch {
@@ -43,6 +44,21 @@ std::string picture_cell(const Asset& asset, const Outcome& out, std::size_t& by
                             escaped(asset.name), out.picture));
 }
 
+/// The columns with values: measures of models only if a model was measured.
+std::vector<const Column*> shown_columns(const Summary& summary) {
+    const bool measured = std::any_of(summary.outcomes.begin(), summary.outcomes.end(),
+                                      [](const Outcome& out) { return out.figures.model.measured(); });
+    std::vector<const Column*> shown;
+    for (const Column& column : columns())
+        if (measured || !column.of_model) shown.push_back(&column);
+    return shown;
+}
+
+std::string cell_of(const Column& column, const Figures& figures) {
+    const auto value = column.value(figures);
+    return value ? column.cell(*value) : "";
+}
+
 std::string verdict_line(const Summary& summary) {
     return fmt::format("{} of {} assets are ok; exit code {}", count(summary, Outcome::Verdict::ok),
                        summary.assets.size(), summary.exit_code);
@@ -51,6 +67,7 @@ std::string verdict_line(const Summary& summary) {
 } // namespace
 
 std::string to_html(const Summary& summary) {
+    const auto shown = shown_columns(summary);
     std::string rows;
     std::size_t bytes = 0;
     for (const std::size_t i : worst_first(summary)) {
@@ -59,7 +76,7 @@ std::string to_html(const Summary& summary) {
         const std::string code_text =
             out.verdict == Outcome::Verdict::ok || out.exit_code != 0 ? std::to_string(out.exit_code) : "";
         std::string figures;
-        for (const Column& column : columns()) figures += number_cell(column.cell(out.figures.*column.value));
+        for (const Column* column : shown) figures += number_cell(cell_of(*column, out.figures));
         rows += fmt::format(
             "<tr>{}{}{}{}{}<td class=\"notes\">{}</td></tr>\n", picture_cell(asset, out, bytes),
             cell(fmt::format("<span class=\"{}\">{}</span>", kind_of(out), verdict_word(out.verdict))),
@@ -70,12 +87,13 @@ std::string to_html(const Summary& summary) {
                                           fmt::format("{} assets", summary.assets.size()), summary.pipeline);
     page += fmt::format("<p class=\"verdict {}\">{}</p>\n", good ? "good" : "bad", verdict_line(summary));
     std::string heads = report::heads({"picture", "outcome", "asset", "#exit code"});
-    for (const Column& column : columns()) heads += report::heads({fmt::format("#{}", column.title).c_str()});
+    for (const Column* column : shown) heads += report::heads({fmt::format("#{}", column->title).c_str()});
     page += report::table("Assets", heads + report::heads({"notes and outputs"}), rows);
     return page + report::html_end();
 }
 
 std::string to_markdown(const Summary& summary) {
+    const auto shown = shown_columns(summary);
     std::vector<std::vector<std::string>> rows;
     for (const std::size_t i : worst_first(summary)) {
         const Outcome& out = summary.outcomes[i];
@@ -85,11 +103,11 @@ std::string to_markdown(const Summary& summary) {
                 notes += (notes.empty() ? "" : "<br>") + markdown_escaped(d.id + ": " + d.message);
         auto& row = rows.emplace_back(
             std::vector<std::string>{verdict_word(out.verdict), markdown_escaped(summary.assets[i].name)});
-        for (const Column& column : columns()) row.push_back(column.cell(out.figures.*column.value));
+        for (const Column* column : shown) row.push_back(cell_of(*column, out.figures));
         row.push_back(std::move(notes));
     }
     std::vector<std::string> heads{"outcome", "asset"};
-    for (const Column& column : columns()) heads.emplace_back(column.title);
+    for (const Column* column : shown) heads.emplace_back(column->title);
     heads.emplace_back("notes");
     return fmt::format("## {}\n\n{}\n", markdown_escaped(summary.pipeline), verdict_line(summary)) +
            report::markdown_table("Assets", heads, rows);

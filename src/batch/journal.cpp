@@ -50,7 +50,11 @@ Json done_json(const Done& done) {
                  {"written", done.written},
                  {"warnings", done.warnings},
                  {"picture", done.picture}};
-    for (const Column& column : columns()) json[column.key] = done.figures.*column.value;
+    for (const Column& column : columns())
+        if (!column.of_model || done.figures.model.measured())
+            if (const auto value = column.value(done.figures)) json[column.key] = *value;
+    if (done.figures.model.measured()) json["unit"] = done.figures.model.unit;
+    if (!done.measured.empty()) json["measured"] = done.measured;
     return json;
 }
 
@@ -65,8 +69,14 @@ Done done_from(const Json& json) {
     done.outputs = stamps_from(json.at("outputs"));
     json.at("absent").get_to(done.absent);
     json.at("former").get_to(done.former);
-    for (const Column& column : columns()) // another release may lack some columns
-        done.figures.*column.value = json.value(column.key, std::uint64_t{0});
+    done.measured = json.value("measured", "");
+    for (const Column& column : columns()) { // another release may lack some columns
+        if (column.of_model && done.measured.empty()) continue;
+        const auto value = json.find(column.key);
+        column.set(done.figures,
+                   value == json.end() ? std::optional<double>() : std::optional(value->get<double>()));
+    }
+    done.figures.model.unit = json.value("unit", "");
     json.at("written").get_to(done.written);
     json.at("warnings").get_to(done.warnings);
     json.at("picture").get_to(done.picture);

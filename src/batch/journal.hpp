@@ -35,6 +35,7 @@ struct Done {
     std::vector<std::string> absent;                         ///< missing files that inputs refer to
     std::vector<std::pair<std::string, std::string>> former; ///< outputs of earlier runs with their digests
     Figures figures;
+    std::string measured; ///< how the figures of the model were measured (Settings); empty: they were not
     std::vector<std::string> written;                          ///< outputs without reports, for the summary
     std::vector<std::pair<std::string, std::string>> warnings; ///< ids and messages
     std::string picture;

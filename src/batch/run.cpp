@@ -15,6 +15,7 @@
 #include "platform/cores.hpp"
 #include "platform/interrupts.hpp"
 #include "platform/temporary_files.hpp"
+#include "report/customer.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -44,7 +45,9 @@ Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     out.verdict = record.exit_code == 0 ? Verdict::ok : Verdict::failed;
     out.seconds = record.seconds;
     out.figures = figures_of(record);
+    if (record.exit_code != 0) out.customer = report::customer_text(record);
     for (const auto& file : record.outputs) out.outputs.push_back(from_folder(asset, file.path));
+    for (const auto& report : record.reports) out.reports.push_back(from_folder(asset, report));
     for (auto& stage : record.stages)
         if (!stage.picture.empty()) out.picture = std::move(stage.picture);
     return out;
@@ -56,6 +59,7 @@ Outcome failure(const Error& error) {
     out.exit_code = static_cast<int>(error.kind());
     out.errors.push_back(error.diagnostics().front());
     out.errors.back().where = {};
+    out.customer = report::customer_text(out.errors.back(), error.kind());
     return out;
 }
 
@@ -72,6 +76,9 @@ Outcome kept_outcome(const Done& done) {
     out.kept = true;
     out.figures = done.figures;
     out.outputs = done.written;
+    for (const auto& file : done.outputs) // the rest are reports
+        if (std::find(out.outputs.begin(), out.outputs.end(), file.path) == out.outputs.end())
+            out.reports.push_back(file.path);
     for (const auto& [id, message] : done.warnings)
         out.warnings.push_back({Severity::warning, id, message, {}, {}});
     out.picture = done.picture;
@@ -110,9 +117,14 @@ void add_reports(Done& done, const Work& work, const report::RunRecord& record, 
         done.outputs.push_back(stamp_of_output(folder, from_folder(work.asset, report)));
 }
 
+/// How the settings measure models. Empty: not.
+std::string how_measured(const Settings& settings) {
+    return settings.model_row ? fmt::format("overhang {}", settings.model_row->overhang_angle) : "";
+}
+
 /// What a successful run read and wrote. before: stamps of its inputs from before reading.
 Done done_of(const Work& work, const std::vector<Stamp>& before, const report::RunRecord& record,
-             const Outcome& out, const fs::path& folder) {
+             const Outcome& out, const fs::path& folder, const std::string& measured) {
     Done done = named_done(work);
     done.digest = work.digest;
     std::map<std::string, std::string> sums;
@@ -136,6 +148,7 @@ Done done_of(const Work& work, const std::vector<Stamp>& before, const report::R
         done.outputs.push_back(stamp_of_output(folder, from_folder(work.asset, file.path), file.sha256));
     add_reports(done, work, record, folder);
     done.figures = out.figures;
+    done.measured = measured;
     done.written = out.outputs;
     for (const auto& warning : out.warnings) done.warnings.emplace_back(warning.id, warning.message);
     done.picture = out.picture;
@@ -242,6 +255,7 @@ class BatchRun {
         : settings_(settings), listener_(listener), works_(std::move(works)),
           journal_(settings.output_dir, settings.pipeline) {
         summary_.pipeline = settings.pipeline;
+        summary_.by_cause = settings.by_cause;
         for (const auto& work : works_)
             for (const auto& input : work.inputs) claims_.read(input, work.asset.name);
         for (const auto& work : works_) summary_.assets.push_back(work.asset);
@@ -292,7 +306,10 @@ class BatchRun {
     std::vector<const Done*> find_kept() {
         std::vector<const Done*> kept(works_.size());
         const auto look = [&](std::size_t i) {
-            kept[i] = journal_.unchanged(works_[i].asset.name, works_[i].digest);
+            const Done* done = journal_.unchanged(works_[i].asset.name, works_[i].digest);
+            const bool lacks_measures =
+                done && settings_.model_row && done->measured != how_measured(settings_);
+            kept[i] = lacks_measures ? nullptr : done;
         };
         if (tokens_) // there is only one thread so far
             for (std::size_t i = 0; i < works_.size(); ++i) look(i);
@@ -342,6 +359,8 @@ class BatchRun {
         run.check_invariants = settings_.check_invariants;
         run.commit.sync = settings_.sync;
         run.last_picture = settings_.pictures;
+        run.model_row = settings_.model_row;
+        run.time_limit = settings_.time_limit;
         std::optional<cache::Store> store; // this asset's entries may be evicted when it is done
         if (settings_.store) run.store = &store.emplace(*settings_.store);
         run.on_output = [&](const io::Outputs::File& file) { claims_.write(work.asset, file); };
@@ -356,7 +375,7 @@ class BatchRun {
         out.warnings = std::move(warnings);
         for (const auto& error : record.errors) out.errors.push_back(about_asset(work.asset, error));
         if (record.exit_code == 0)
-            done = done_of(work, before, record, out, settings_.output_dir);
+            done = done_of(work, before, record, out, settings_.output_dir, how_measured(settings_));
         else if (!record.reports.empty())
             done = reports_of_failed(work, record);
         return out;

@@ -1,7 +1,8 @@
 // The JSON documents of a batch: their declarations, and their schema.
 
-#include "batch/batch.hpp"
+#include "batch/causes.hpp"
 #include "batch/words.hpp"
+#include "io/rows.hpp"
 #include "report/record_fields.hpp"
 #include "report/schema_forms.hpp"
 
@@ -31,19 +32,68 @@ auto of_outcome(T Outcome::*member) {
 }
 std::string asset_name(const AssetOutcome& one) { return one.asset->name; }
 
+constexpr const char* not_measured = "the model was not measured, or has no such value";
+
+void declare_column(DeclareFields<AssetOutcome>& d, const Column& column) {
+    const auto count = [&column](const AssetOutcome& one) -> std::optional<std::uint64_t> {
+        const auto value = column.value(one.out->figures);
+        return value ? std::optional(static_cast<std::uint64_t>(*value)) : std::nullopt;
+    };
+    if (!column.of_model) {
+        d.field(
+            column.key, [count](const AssetOutcome& one) { return count(one).value_or(0); }, column.help);
+    } else if (column.is_count) {
+        d.field(column.key, count, column.help).null_when(not_measured);
+    } else {
+        d.field(
+             column.key, [&column](const AssetOutcome& one) { return column.value(one.out->figures); },
+             column.help)
+            .null_when(not_measured);
+    }
+}
+
 void declare_asset(DeclareFields<AssetOutcome>& d) {
     using Verdict = Outcome::Verdict;
     std::vector<NamedChoice<Verdict>> verdicts;
     for (const Verdict v : {Verdict::ok, Verdict::failed, Verdict::interrupted, Verdict::not_run})
         verdicts.push_back({verdict_word(v), v, ""});
     d.field("asset", asset_name, "The input, or the name of the row in the table.");
+    d.field(
+         "path",
+         [](const AssetOutcome& one) {
+             const std::string path = one.asset->input.string();
+             return path.empty() ? std::nullopt : std::optional(path);
+         },
+         "The input file.")
+        .null_when("the row of the table has no input");
     d.choice("verdict", of_outcome(&Outcome::verdict), verdicts, "");
     d.field("exit_code", of_outcome(&Outcome::exit_code), "");
-    for (const Column& column : columns())
-        d.field(
-            column.key, [value = column.value](const AssetOutcome& one) { return one.out->figures.*value; },
-            column.help);
+    d.field(
+         "error",
+         [](const AssetOutcome& one) {
+             return one.out->errors.empty() ? std::nullopt : std::optional(one.out->errors.front().id);
+         },
+         "The id of the first error.")
+        .null_when("the asset has no errors");
+    d.field(
+         "customer",
+         [](const AssetOutcome& one) {
+             return one.out->customer.empty() ? std::nullopt : std::optional(one.out->customer);
+         },
+         "Why the model was rejected, in plain words for its owner.")
+        .null_when("the model was not rejected");
+    for (const Column& column : columns()) declare_column(d, column);
+    d.field(
+         "unit",
+         [](const AssetOutcome& one) {
+             const ModelRow& model = one.out->figures.model;
+             return model.measured() ? std::optional(model.unit) : std::nullopt;
+         },
+         "The unit of lengths, areas and volumes, or unknown.")
+        .null_when(not_measured);
     d.field("outputs", of_outcome(&Outcome::outputs), "The written files, relative to the output folder.");
+    d.field("reports", of_outcome(&Outcome::reports),
+            "The asset's own reports, relative to the output folder.");
     refer(d.list("errors", of_outcome(&Outcome::errors), "The errors of the asset.",
                  report::declare_diagnostic<Diagnostic>),
           "diagnostic");
@@ -72,6 +122,25 @@ bool is_passed(const Summary& summary) {
     return summary.exit_code == 0 && count(summary, Outcome::Verdict::ok) == summary.assets.size();
 }
 
+void declare_cause(DeclareFields<Cause>& d) {
+    d.choice("severity", &Cause::severity,
+             std::vector<NamedChoice<Severity>>{{"error", Severity::error, ""},
+                                                {"warning", Severity::warning, ""},
+                                                {"note", Severity::note, ""}},
+             "");
+    d.field("id", &Cause::id, "");
+    d.field("about", &Cause::about, "The property of a check, or the warning that --strict made an error.");
+    d.field("assets", &Cause::assets, "The number of assets.");
+    d.field("messages", &Cause::messages, "The number of messages.");
+    d.field("first_asset", &Cause::first_asset, "The first asset in the order of the inputs.");
+    d.field("first_message", &Cause::first_message, "Its message.");
+}
+
+const Fields& asset_fields() {
+    static const Fields fields = fields_of<AssetOutcome>(declare_asset);
+    return fields;
+}
+
 const Fields& summary_fields() {
     static const Fields fields = fields_of<Summary>([](DeclareFields<Summary>& d) {
         report::declare_format(d);
@@ -85,13 +154,32 @@ const Fields& summary_fields() {
                      report::declare_diagnostic<Diagnostic>),
               "diagnostic");
         d.list(
-            "assets", [](const Summary& summary) { return outcomes_of(summary, worst_first(summary)); },
-            "The assets, the most severe failures first.", declare_asset);
+            "causes", [](const Summary& summary) { return causes_of(summary); },
+            "The errors and warnings by cause: errors first, then by the number of assets.", declare_cause);
+        d.list(
+            "assets",
+            [](const Summary& summary) {
+                return summary.by_cause ? std::nullopt
+                                        : std::optional(outcomes_of(summary, worst_first(summary)));
+            },
+            "The assets, the most severe failures first.", declare_asset)
+            .only_when("--summary by-id is not given");
     });
     return fields;
 }
 
 } // namespace
+
+void write_rows(const std::string& path, const Summary& summary,
+                const std::function<void(std::string_view)>& put) {
+    const io::RowFormat format = io::row_format(path);
+    for (std::size_t i = 0; i < summary.assets.size(); ++i) {
+        const AssetOutcome one{&summary.assets[i], &summary.outcomes[i]};
+        const Json row = io::flat_row(asset_fields().json(&one));
+        if (i == 0) put(io::row_heading(row, format));
+        put(io::row_line(row, format));
+    }
+}
 
 Json to_json(const Summary& summary) { return summary_fields().json(&summary); }
 

@@ -4,7 +4,7 @@
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
-#include "batch/batch.hpp"
+#include "batch/causes.hpp"
 #include "batch/words.hpp"
 
 #include <algorithm>
@@ -83,6 +83,25 @@ std::string totals(const Summary& summary, BatchForm form) {
     return text;
 }
 
+/// The most common causes, one line each, in at most this many lines.
+void add_causes(const Summary& summary, std::size_t most, Painted& text) {
+    const auto causes = causes_of(summary);
+    const std::size_t shown = causes.size() <= most ? causes.size() : most - 1;
+    for (std::size_t i = 0; i < shown; ++i) {
+        const Cause& cause = causes[i];
+        const bool error = cause.severity == Severity::error;
+        text += "  ";
+        text.paint(error ? "1;31" : "33", fmt::format("{:<8}", error ? "error" : "warning"));
+        text += fmt::format("{:<28} {}", name_of(cause), counted(cause.assets, "asset"));
+        if (!cause.first_asset.empty()) text += ", first " + one_line(cause.first_asset);
+        text += "\n";
+    }
+    if (causes.size() > shown)
+        text += fmt::format("  and {} more causes: --report F.json lists all\n", causes.size() - shown);
+}
+
+constexpr std::size_t most_causes = 9; // with the totals, ten lines
+
 } // namespace
 
 int worse_exit_code(int a, int b) { return gravity(a) < gravity(b) ? b : a; }
@@ -123,7 +142,7 @@ Painted to_terminal(const Summary& summary, bool colour, bool all) {
         const auto verdict = summary.outcomes[i].verdict;
         return verdict == Outcome::Verdict::ok || verdict == Outcome::Verdict::not_run;
     };
-    const auto order = worst_first(summary);
+    const auto order = summary.by_cause ? std::vector<std::size_t>() : worst_first(summary);
     const auto good = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), went_well));
     const std::size_t told = all || good <= most + 1 ? good : most;
     Painted text(colour);
@@ -131,6 +150,7 @@ Painted to_terminal(const Summary& summary, bool colour, bool all) {
     for (const std::size_t i : order)
         if (!went_well(i) || ++seen <= told)
             add_line(summary.assets[i], summary.outcomes[i], BatchForm::terminal, text);
+    if (summary.by_cause) add_causes(summary, most_causes, text);
     if (good > told) text += fmt::format("  ... and {} more (-v or --report lists all)\n", good - told);
     for (const auto& path : summary.pruned) text += fmt::format("removed {}\n", one_line(path));
     text += totals(summary, BatchForm::terminal);
@@ -143,8 +163,10 @@ std::string to_text(const Summary& summary) {
     text += summary.pipeline + "\n";
     for (const auto& error : summary.errors)
         text += fmt::format("  [{}] {}\n", error.id, one_line(error.message));
-    for (const std::size_t i : worst_first(summary))
-        add_line(summary.assets[i], summary.outcomes[i], BatchForm::report, text);
+    add_causes(summary, most_causes, text);
+    if (!summary.by_cause)
+        for (const std::size_t i : worst_first(summary))
+            add_line(summary.assets[i], summary.outcomes[i], BatchForm::report, text);
     text += fmt::format("{}; exit code {}\n", totals(summary, BatchForm::report), summary.exit_code);
     return text.text();
 }

@@ -1,10 +1,13 @@
 // facetmill batch: runs a pipeline over many assets in a single process.
 
+#include "base/math/numbers.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
 #include "cli/warning_limiter.hpp"
 #include "io/outputs/outputs.hpp"
+#include "io/rows.hpp"
 #include "parallel/memory.hpp"
 #include "report/form.hpp"
 
@@ -37,6 +40,10 @@ Examples
 
 struct BatchOptions : AssetOptions {
     bool keep_going = false, prune = false;
+    std::string summary;             ///< by-asset or by-id
+    std::vector<std::string> tables; ///< files with a row per asset
+    double overhang_angle = 45;      ///< in degrees
+    std::string time_limit;          ///< as given
 };
 
 void add_batch_options(Arguments& arguments, BatchOptions& options) {
@@ -52,7 +59,23 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--prune", &options.prune,
                   "Removes outputs of earlier batches whose input no longer exists.");
     arguments.add("--report", &options.common.reports,
-                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
+                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt. - writes JSON to standard\noutput.");
+    arguments.add(
+        "--time-limit", &options.time_limit,
+        "The time for each asset: 30s, 500ms, 5min or 1h. An asset that takes longer fails (E-TIME), "
+        "and\nwrites nothing. Stages stop where they report progress.");
+    arguments.add("--table-out", &options.tables,
+                  "Also measures each model, and writes a table with a row per asset, rejected ones "
+                  "too:\nF.csv or F.jsonl.");
+    arguments
+        .add("--overhang-angle", &options.overhang_angle,
+             "The slope in degrees below which faces count as overhangs in --table-out. Default: 45.")
+        .not_negative();
+    arguments
+        .add("--summary", &options.summary,
+             "by-asset lists every asset. by-id groups errors and warnings by id, on the terminal in at most "
+             "ten\nlines. Reports then list no assets; --table-out does.")
+        .one_of({"by-asset", "by-id"});
     arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
     add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
@@ -102,11 +125,13 @@ class BatchBar {
 
 /// Prints the messages of a finished asset together.
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const batch::Summary& so_far,
-                const Console& console) {
+                const Console& console, bool by_cause) {
     WarningLimiter few(console);
-    if (!out.kept)
+    const bool tells = !by_cause || console.json; // otherwise the summary tells the causes
+    if (!out.kept && tells)
         for (const auto& warning : out.warnings) few.tell(warning);
-    for (const auto& error : out.errors) few.tell(error);
+    if (tells)
+        for (const auto& error : out.errors) few.tell(error);
     few.finish();
     console.event({{"level", "info"},
                    {"event", "asset"},
@@ -119,18 +144,36 @@ void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const batc
                    {"seconds", out.seconds}});
 }
 
-void write_summary(const batch::Summary& summary, const PipelineOptions& options, const Folders& places,
+/// Writes the table row by row, because a million rows may be larger than memory.
+void write_table(const std::filesystem::path& target, const std::string& path,
+                 const batch::Summary& summary) {
+    const auto rows = [&](const auto& put) {
+        batch::write_rows(path, summary, [&](std::string_view text) { put(io::bytes_of_text(text)); });
+    };
+    io::Outputs outputs;
+    outputs.add(target, rows);
+    outputs.commit();
+}
+
+void write_summary(const batch::Summary& summary, const BatchOptions& options, const Folders& places,
                    const Console& console) {
-    const auto write = [&](const std::string& path, const std::string& text) {
-        io::write_now(places.output(path), std::as_bytes(std::span(text)));
+    const auto tell = [&](const std::string& path) {
         if (!console.json) console.say(fmt::format("wrote {}", places.output(path).string()));
     };
-    for (const auto& report : options.reports) write(report, batch::render_for(report, summary));
-    if (!options.timings.empty()) write(options.timings, batch::timings_text(summary));
+    const auto write = [&](const std::string& path, const std::string& text) {
+        io::write_now(places.output(path), std::as_bytes(std::span(text)));
+        tell(path);
+    };
+    for (const auto& report : options.common.reports) write(report, batch::render_for(report, summary));
+    for (const auto& table : options.tables) {
+        write_table(places.output(table), table, summary);
+        tell(table);
+    }
+    if (!options.common.timings.empty()) write(options.common.timings, batch::timings_text(summary));
 }
 
 /// Prints and writes the summary.
-void tell_summary(const batch::Summary& summary, const PipelineOptions& options, const Folders& places,
+void tell_summary(const batch::Summary& summary, const BatchOptions& options, const Folders& places,
                   const Console& console) {
     for (const auto& warning : summary.warnings) console.diagnostic(warning);
     for (const auto& error : summary.errors) console.diagnostic(error);
@@ -143,13 +186,14 @@ void tell_summary(const batch::Summary& summary, const PipelineOptions& options,
     write_summary(summary, options, places, console);
 }
 
-batch::Listener listener_for(const PipelineOptions& options, const Folders& places, const Console& console,
+batch::Listener listener_for(const BatchOptions& options, const Folders& places, const Console& console,
                              const std::shared_ptr<BatchBar>& bar) {
     batch::Listener listener;
-    listener.on_finished = [&console, bar](const batch::Asset& asset, const batch::Outcome& out,
+    const bool by_cause = options.summary == "by-id";
+    listener.on_finished = [&console, bar, by_cause](const batch::Asset& asset, const batch::Outcome& out,
                                            const batch::Summary& so_far) {
         bar->clear();
-        tell_asset(asset, out, so_far, console);
+        tell_asset(asset, out, so_far, console, by_cause);
         bar->draw(so_far);
     };
     if (console.verbose || console.json)
@@ -170,6 +214,21 @@ batch::Listener listener_for(const PipelineOptions& options, const Folders& plac
     return listener;
 }
 
+/// The seconds of a text such as 30s. A number without a unit counts seconds.
+double seconds_of(const std::string& text, const CommandLine& line) {
+    if (text.empty()) return 0;
+    constexpr std::pair<std::string_view, double> units[] = {
+        {"ms", 1e-3}, {"min", 60}, {"h", 3600}, {"s", 1}, {"", 1}};
+    for (const auto& [unit, factor] : units) {
+        if (!text.ends_with(unit)) continue;
+        const auto number = parse_real(std::string_view(text).substr(0, text.size() - unit.size()));
+        if (number && *number > 0 && *number * factor < 1e9) return *number * factor;
+        break;
+    }
+    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--time-limit needs a time, found '{}'", text),
+                "for example --time-limit 30s", line.value(text));
+}
+
 /// The settings of the batch, except the planner of an asset.
 batch::Settings batch_settings(const BatchOptions& options, const CommandLine& line, const Folders& places) {
     batch::Settings settings;
@@ -177,6 +236,8 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     settings.memory = memory_bytes(options.memory, line);
     set_memory_limit(settings.memory);
     settings.keep_going = options.keep_going;
+    settings.by_cause = options.summary == "by-id";
+    settings.time_limit = seconds_of(options.time_limit, line);
     settings.prune = options.prune;
     settings.check_invariants = options.common.check_invariants;
     settings.sync = !options.common.no_sync;
@@ -185,6 +246,8 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
         settings.others.push_back(places.output(report));
         settings.pictures |= report.ends_with(".html");
     }
+    for (const auto& table : options.tables) settings.others.push_back(places.output(table));
+    if (!options.tables.empty()) settings.model_row = {options.overhang_angle * pi / 180, true};
     if (!options.common.timings.empty()) settings.others.push_back(places.output(options.common.timings));
     settings.read = {options.sources.lists.begin(), options.sources.lists.end()};
     for (const auto& file : {options.pipeline, options.sources.table})
@@ -222,6 +285,16 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
             problems.add(e.at(line.value(report)));
         }
     }
+    for (const auto& table : options.tables) {
+        try {
+            static_cast<void>(io::row_format(table));
+        } catch (Error& e) {
+            problems.add(e.at(line.value(table)));
+        }
+    }
+    if (!(options.overhang_angle <= 90))
+        problems.add(line.find("--overhang-angle"), "E-RANGE",
+                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
     PipelineOptions common = options.common;
     common.reports.clear(); // the option's reports belong to the summary
     common.timings.clear();
@@ -235,7 +308,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     const auto refuse = [&](ErrorKind kind, const std::vector<Diagnostic>& why) {
         for (const auto& d : why) console.diagnostic(d);
         const auto summary = batch::refused(assets, settings.pipeline, kind, why);
-        if (!prepared.files_collide) write_summary(summary, options.common, of_all.places, console);
+        if (!prepared.files_collide) write_summary(summary, options, of_all.places, console);
         return summary.exit_code;
     };
     if (problems.any_errors()) return refuse(ErrorKind::usage, problems.all());
@@ -245,10 +318,10 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     const auto store = store_for(options.common.cache, settings.allowed, console, console.verbose);
     settings.store = store.get();
     const auto bar = std::make_shared<BatchBar>(console);
-    const auto summary = batch::run(std::move(prepared.works), settings,
-                                    listener_for(options.common, of_all.places, console, bar));
+    const auto summary =
+        batch::run(std::move(prepared.works), settings, listener_for(options, of_all.places, console, bar));
     bar->clear();
-    tell_summary(summary, options.common, of_all.places, console);
+    tell_summary(summary, options, of_all.places, console);
     return summary.exit_code;
 }
 

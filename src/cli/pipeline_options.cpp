@@ -166,7 +166,8 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "The folder for relative paths of outputs. Default: the working directory.");
     arguments.add(
         "--report", &options.reports,
-        "Also writes a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
+        "Also writes a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or F.txt.\n- writes "
+        "JSON to standard output.");
     arguments.add("--timings", &options.timings,
                   "Writes times, memory and threads to F.json, or a report page with them to F.html.\nOther "
                   "reports omit them so that they are reproducible.");
@@ -208,7 +209,7 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
 
 /// The path of a report or of times relative to --output-dir: "checked/r.json" with -o checked is "r.json".
 std::string below_output_dir(const std::string& path, const std::string& folder) {
-    if (folder.empty() || fs::path(path).is_absolute()) return path;
+    if (folder.empty() || path == "-" || fs::path(path).is_absolute()) return path;
     const fs::path below = fs::absolute(path).lexically_normal().lexically_relative(
         (fs::absolute(folder) / "").lexically_normal());
     return below.empty() || *below.begin() == ".." ? path : below.string();

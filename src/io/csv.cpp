@@ -165,9 +165,10 @@ std::vector<double> read_table(const Input& input, std::size_t columns,
 std::string csv_number(double x) { return std::isfinite(x) ? to_string(x) : ""; }
 
 std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",;\"\r\n") == text.npos) return text;
+    const std::string cell = text.find_first_of("=+-@\t\r") == 0 ? "'" + text : text;
+    if (cell.find_first_of(",;\"\r\n") == cell.npos) return cell;
     std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    for (const char c : cell) quoted += c == '"' ? "\"\"" : std::string(1, c);
     return quoted + "\"";
 }
 

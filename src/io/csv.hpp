@@ -19,7 +19,8 @@ namespace facetmill::io {
 
 /// A number as the shortest text that reads back the same; empty when it is not finite.
 [[nodiscard]] std::string csv_number(double x);
-/// A text, quoted if CSV requires it.
+/// A text, quoted if CSV requires it. An apostrophe goes before =, +, -, @, tab and carriage return at the
+/// start, because spreadsheets would run the text as a formula.
 [[nodiscard]] std::string csv_text(const std::string& text);
 
 } // namespace facetmill::io

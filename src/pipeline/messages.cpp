@@ -35,6 +35,11 @@ const RegisterMessages pipeline_messages{
      "Choose a unique name without `. / [ ]`.", ErrorKind::usage},
     {"E-ORDER", "A stage needs a scene, but no earlier stage loads one.", "Begin with `load` or `generate`.",
      ErrorKind::usage},
+    {"E-TIME",
+     "A run took longer than `--time-limit`. Its outputs were not written. Stages stop where they report "
+     "progress, "
+     "so a run may end some time after the limit.",
+     "Allow more time, or reduce the mesh first with `simplify`.", ErrorKind::limit},
     {"E-PARAM", "A param is not declared, has no value, or has an invalid declaration.",
      "Set it with `-D name=value`. Run `facetmill plan PIPELINE` to list the params with their values.",
      ErrorKind::usage},

@@ -13,8 +13,11 @@ void watch_progress(Engine& engine);
 void watch_trace(Engine& engine, Trace& trace);
 /// Fails a stage that breaks an invariant of scenes.
 void watch_invariants(Engine& engine);
-/// Records the properties of the final scene for reports, and small pictures of it for an index.
+/// Records the properties of the final scene for reports, and small pictures of it for an index. If a check
+/// fails, the properties are those of the scene that failed.
 void watch_record(Engine& engine);
+/// Measures the model for a table: as loaded, when a check fails, and at the end.
+void watch_model(Engine& engine);
 /// Collects the contents of a page: pictures, distances, histograms.
 void watch_pictures(Engine& engine, report::Page& page);
 /// Collects deviations for Markdown reports without a page.
@@ -30,6 +33,8 @@ void watch_results(Engine& engine, report::Page& page, const char* scene_for);
 [[nodiscard]] report::PageStep page_step(const Step& step);
 /// makes_page: true if the run creates a page; the other: true if it has a report in this format.
 bool makes_page(const Engine& engine);
+/// True if a check of the event's stage failed with severity error.
+bool fails_check(const Engine& engine, const Event& event);
 bool has_report(const Engine& engine, std::string_view suffix);
 
 } // namespace facetmill::pipeline

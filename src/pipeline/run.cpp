@@ -6,6 +6,7 @@
 #include "parallel/parallel.hpp"
 #include "pipeline/cell_source.hpp"
 #include "pipeline/observers.hpp"
+#include "pipeline/time_limit.hpp"
 #include "platform/available_memory.hpp"
 #include "report/render.hpp"
 
@@ -58,10 +59,12 @@ void write_report(const Plan& plan, const std::string& path, const report::RunRe
 /// Everything around the steps: checks before them, and writing files after them.
 class Runner {
   public:
-    Runner(const Plan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
+    Runner(const Plan& plan, const RunSettings& settings)
+        : plan_(plan), limit_(settings.progress, settings.time_limit), settings_(settings) {
+        settings_.progress = limit_.progress();
         state_.places = plan.places;
         state_.read_back = settings.read_back;
-        state_.outputs.set(settings.commit);
+        state_.outputs.set(settings_.commit);
         record() = record_of(plan);
         engine_.keeps_loaded = compares_with_load(plan.steps);
         if (engine_.keeps_loaded) cache_.keep_loads();
@@ -69,6 +72,7 @@ class Runner {
         watch_progress(engine_);
         watch_invariants(engine_);
         watch_record(engine_);
+        watch_model(engine_);
         watch_pictures(engine_, page_);
         watch_deviation(engine_, page_);
         watch_view(engine_, view_);
@@ -86,6 +90,7 @@ class Runner {
                 engine_.emit({.kind = Event::Kind::ended}, &flow);
             finish_outputs();
         }
+        limit_.end();
         record().seconds = watch.seconds();
         record().peak_memory = peak_memory();
         record().threads = threads();
@@ -170,6 +175,7 @@ class Runner {
 
     void finish_outputs() {
         if (!failures_.any() && failures_.guarded({}, "writing the outputs", [&] {
+                const ProgressScope share = engine_.beside_stages("writing the outputs");
                 if (settings_.on_output)
                     for (const auto& file : state_.outputs.files()) settings_.on_output(*file);
                 if (!settings_.commit.names_only) state_.outputs.commit();
@@ -180,7 +186,8 @@ class Runner {
     }
 
     const Plan& plan_;
-    const RunSettings& settings_;
+    TimeLimit limit_;
+    RunSettings settings_;
     RunState state_;
     Failures failures_{state_.record, settings_, plan_.allowed};
     Trace trace_;

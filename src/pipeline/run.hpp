@@ -11,10 +11,12 @@ namespace facetmill::pipeline {
 
 struct RunSettings {
     Progress* progress = nullptr;
+    double time_limit = 0; ///< seconds for the run, or 0 for no limit; see pipeline/time_limit.hpp
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
     bool check_invariants = false; ///< checks mesh/invariants.hpp after every stage (for tests)
-    bool last_picture = false;     ///< makes a small picture in the last stage's record, even without reports
+    std::optional<ModelRowSettings> model_row = {}; ///< measures the model for a table
+    bool last_picture = false; ///< makes a small picture in the last stage's record, even without reports
     /// Makes the record of a page, even without reports; called at the end with the contents of its 3D view.
     std::function<void(const Json&)> on_view = {};
     cache::Store* store = nullptr; ///< source and destination of stage results; null: no cache

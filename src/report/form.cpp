@@ -8,6 +8,7 @@
 namespace facetmill::report {
 
 ReportForm form_of(const std::string& path) {
+    if (path == "-") return ReportForm::json;
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension == ".json") return ReportForm::json;
     if (extension == ".html") return ReportForm::html;

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/math/vec.hpp"
+#include "geometry/model_row/model_row.hpp"
 #include "io/gltf/contents/byte_kinds.hpp"
 #include "mesh/attribute_changes.hpp"
 #include "report/views.hpp"
@@ -149,7 +150,9 @@ struct RunRecord {
     double seconds = 0;
     std::size_t peak_memory = 0; ///< in bytes
     int threads = 0;
-    Json final_properties; ///< all of property_table() for the final scene
+    Json final_properties; ///< all of property_table() for the final scene, or for the scene that failed a
+                           ///< check
+    ModelRow model;        ///< for tables: the final scene, the scene that failed a check, or as loaded
 };
 
 } // namespace facetmill::report

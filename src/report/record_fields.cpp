@@ -173,8 +173,9 @@ void declare_run(DeclareFields<RunRecord>& d) {
     refer(d.list("checks", &RunRecord::checks, "The checks of validate and ensure.", declare_check), "check");
     d.list("outputs", &RunRecord::outputs, "The files that were written. Empty when the run failed.",
            [](DeclareFields<FileRecord>& f) { declare_file(f, true); });
-    d.field("properties", as_it_is(&RunRecord::final_properties),
-            "The properties of the final scene. Null when the run failed before its end.")
+    d.field(
+         "properties", as_it_is(&RunRecord::final_properties),
+         "The properties of the final scene, or of the scene that failed a check. Null when a stage failed.")
         .field()
         .schema = {{"anyOf", Json::array({reference("scene"), typed("null")})}};
 }

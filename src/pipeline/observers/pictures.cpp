@@ -13,6 +13,13 @@ bool has_report(const Engine& engine, std::string_view suffix) {
 
 bool makes_page(const Engine& engine) { return engine.settings.on_view || has_report(engine, ".html"); }
 
+bool fails_check(const Engine& engine, const Event& event) {
+    const auto& checks = engine.record().checks;
+    return std::any_of(
+        checks.begin() + static_cast<std::ptrdiff_t>(event.first_check), checks.end(),
+        [](const report::Check& check) { return !check.passed && check.severity == Severity::error; });
+}
+
 report::PageStep page_step(const Step& step) {
     const StageInfo& info = *step.info;
     return {step.name, info.loads, info.moves, info.checks,

@@ -8,11 +8,7 @@ void watch_view(Engine& engine, report::PageView& view) {
     if (!makes_page(engine)) return;
     const char* const what = "the 3D view";
     const report::RunRecord& record = engine.record();
-    const auto fails = [&](const Event& event) {
-        return std::any_of(
-            record.checks.begin() + static_cast<std::ptrdiff_t>(event.first_check), record.checks.end(),
-            [](const report::Check& check) { return !check.passed && check.severity == Severity::error; });
-    };
+    const auto fails = [&](const Event& event) { return fails_check(engine, event); };
     const auto failed = [&](const Event& event) { view.failed(event.step->name, *event.scene); };
     const auto written = [&](const Event& event) {
         for (std::size_t i = event.first_output; i < record.outputs.size(); ++i)

@@ -9,8 +9,8 @@ namespace facetmill::measure_stage {
 
 std::optional<std::string> why_not_on_cells(const MeasureOptions& o) {
     if (!o.attributes.empty()) return "attributes need the whole mesh in memory";
-    if (std::any_of(o.path.begin(), o.path.end(), lists_faces))
-        return "path needs the whole mesh in memory, because cells do not keep the order of faces";
+    if (std::any_of(o.path.begin(), o.path.end(), is_table))
+        return "a table needs the whole mesh in memory, because cells do not keep the order of faces";
     return {};
 }
 
@@ -22,7 +22,7 @@ void measure_on_cells(const MeasureOptions& o, CellFlow& flow, Context& context)
     MeasureReport report{to_string(flow.unit), o.density, {all.mass.shell, solid}, {}};
     report.parts.push_back(
         {flow.part, all.mass.shell, solid, std::move(all.faces), all.edges, std::move(all.curvature)});
-    write_results(o, report, "", context);
+    write_results(o, report, {}, context);
     context.report(fields_of<MeasureReport>(declare_measure_report), &report);
 }
 

@@ -23,6 +23,11 @@ The table of faces lists the kind, the signed area and the second moments of eve
 The moments use the axes of its plane, as in section.
 For a plane z = constant, these are x and y.
 
+With per: part or per: scene, a table has a row for each part or for the scene.
+An overhang is the area of faces that look down with a slope below overhang_angle, without the faces
+that lie on the plate at the lowest point.
+The height is along the up axis, or along z if it is unknown.
+
 A planar polygon that intersects itself has the area, centroid and moments of its nonzero winding
 region.
 Each point counts once, as in triangulate and section.

@@ -2,6 +2,8 @@
 
 #include "base/refusal.hpp"
 #include "base/text/spelling.hpp"
+#include "base/text/words.hpp"
+#include "geometry/model_row/model_row.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stages/measure/face_table.hpp"
@@ -20,6 +22,12 @@ std::string told(const Quantity& q) {
         fmt::format("{} Stored at {}.", q.help, q.domain == Domain::face ? "faces" : "vertices");
     if (!q.missing.empty()) text += fmt::format(" No value {}.", q.missing);
     return text;
+}
+
+std::string model_column_names() {
+    std::string names;
+    for (const ModelColumn& column : model_columns()) append_item(names, column.name);
+    return names;
 }
 
 bool compares(const MeasureOptions& o) {
@@ -50,18 +58,35 @@ void declare_measure(Declare<MeasureOptions>& d) {
     d.option("missing", &MeasureOptions::missing,
              "The value of an attribute where no number exists. Default: nan, which render shows as \"no "
              "value\" and PLY stores. Other formats store 0 instead of nan (W-NAN).");
+    d.choice("per", &MeasureOptions::per,
+             {{"face", Per::face, "A row for each face."},
+              {"part", Per::part, "A row for each part, with its size, smallest wall and overhangs."},
+              {"scene", Per::scene, "One row for the whole scene, with the same columns."}},
+             "The rows of a table that path names.");
+    d.option("overhang_angle", &MeasureOptions::overhang_angle,
+             "The slope below which a face that looks down counts as an overhang, for per: part and per: "
+             "scene.")
+        .between(0, 90);
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files. The suffix selects the format: .json for all results, "
-             ".csv for a table of faces. - writes JSON to standard output. Columns of the table: " +
-                 face_table_help() + ".")
+             ".csv for a table, .jsonl for a table of parts or of the scene. - writes JSON to standard "
+             "output. Columns of a table of parts: part, " +
+                 model_column_names() + ", unit. Columns of a table of faces: " + face_table_help() + ".")
         .also_called(path_synonyms);
 }
 
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems) {
     for (const auto& path : o.path)
-        if (path.text != "-" && !lists_faces(path) && !path.text.ends_with(".json"))
+        if (path.text != "-" && !is_table(path) && !path.text.ends_with(".json"))
             problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
-                         "use a name that ends in .json or .csv");
+                         "use a name that ends in .json, .csv or .jsonl");
+        else if (o.per == Per::face && path.text.ends_with(".jsonl"))
+            problems.add(given.mark, "E-FORMAT",
+                         fmt::format("a table of faces is a .csv file, found '{}'", path.text),
+                         "use a name that ends in .csv, or per: part");
+    if (o.per != Per::face && std::none_of(o.path.begin(), o.path.end(), is_table))
+        add_refusal(Refusal{"per", "'per' needs a path that ends in .csv or .jsonl"}, "measure", given,
+                    problems);
     if (o.with && !compares(o))
         add_refusal(Refusal{"with", "'with' needs the attribute deviation"}, "measure", given, problems);
     if (given.find("missing") && o.attributes.empty())
@@ -76,7 +101,15 @@ StageFiles files_of_measure(const MeasureOptions& o) {
 
 bool is_from_load(const MeasureOptions& o) { return !o.with && compares(o); }
 
-bool lists_faces(const PathText& path) { return path.text.ends_with(".csv"); }
+bool is_table(const PathText& path) { return path.text.ends_with(".csv") || path.text.ends_with(".jsonl"); }
+
+bool lists_faces(const MeasureOptions& o) {
+    return o.per == Per::face && std::any_of(o.path.begin(), o.path.end(), is_table);
+}
+
+bool lists_models(const MeasureOptions& o) {
+    return o.per != Per::face && std::any_of(o.path.begin(), o.path.end(), is_table);
+}
 
 } // namespace facetmill::measure_stage
 

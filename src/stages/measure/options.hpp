@@ -11,12 +11,17 @@ struct QuantityName {
     const Quantity* quantity = nullptr;
 };
 
+/// What a row of a table describes.
+enum class Per { face, part, scene };
+
 struct MeasureOptions {
     double density = 1;
     Angle feature_angle = Angle::degrees(30);
     std::vector<QuantityName> attributes;
     std::optional<PathText> with;
     std::optional<double> missing;
+    Per per = Per::face;
+    Angle overhang_angle = Angle::degrees(45);
     std::vector<PathText> path;
 };
 
@@ -25,8 +30,11 @@ void declare_measure(Declare<MeasureOptions>& d);
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems);
 [[nodiscard]] StageFiles files_of_measure(const MeasureOptions& o);
 
-/// Whether the file lists every face, instead of all results as JSON.
-bool lists_faces(const PathText& path);
+/// Whether the file is a table, instead of all results as JSON.
+bool is_table(const PathText& path);
+/// Whether a file lists faces, or models (parts or the scene).
+bool lists_faces(const MeasureOptions& o);
+bool lists_models(const MeasureOptions& o);
 
 /// Whether an attribute compares with the scene as loaded.
 bool is_from_load(const MeasureOptions& o);

@@ -6,6 +6,7 @@
 #include "geometry/measure/statistics_fields.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
+#include "io/rows.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -261,11 +262,24 @@ void correct_for_shells(const std::string& part, const Mesh& mesh, MassResult& m
                                 : "use orient to turn inner shells inward, as cavities");
 }
 
-void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
+namespace {
+
+std::string text_of(const MeasureTables& tables, const std::string& path, bool faces) {
+    if (faces) return tables.faces;
+    const io::RowFormat format = io::row_format(path);
+    std::string text = tables.models.empty() ? "" : io::row_heading(tables.models.front(), format);
+    for (const Json& row : tables.models) text += io::row_line(row, format);
+    return text;
+}
+
+} // namespace
+
+void write_results(const MeasureOptions& o, const MeasureReport& report, const MeasureTables& tables,
                    Context& context) {
     const Fields fields = fields_of<MeasureReport>(declare_measure_report);
     for (const auto& path : o.path) {
-        const std::string text = lists_faces(path) ? table : fields.json(&report).dump(2) + "\n";
+        const std::string text = is_table(path) ? text_of(tables, path.text, o.per == Per::face)
+                                                : fields.json(&report).dump(2) + "\n";
         context.output(path.text, std::as_bytes(std::span(text)));
     }
 }

@@ -53,8 +53,13 @@ void declare_measure_report(DeclareFields<MeasureReport>& d);
 void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context);
 /// If closed shells count space twice, replaces their solid by the right one, and warns (W-SHELLS).
 void correct_for_shells(const std::string& part, const Mesh& mesh, MassResult& mass, Context& context);
-/// Writes the files that the options name. table: the rows for files that list faces.
-void write_results(const MeasureOptions& o, const MeasureReport& report, const std::string& table,
+/// The tables of measure: of faces, as CSV, or of models.
+struct MeasureTables {
+    std::string faces;
+    std::vector<Json> models = {}; ///< flat rows
+};
+/// Writes the files that the options name.
+void write_results(const MeasureOptions& o, const MeasureReport& report, const MeasureTables& tables,
                    Context& context);
 
 } // namespace facetmill::measure_stage

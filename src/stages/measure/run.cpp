@@ -1,5 +1,6 @@
 #include "geometry/measure/measure.hpp"
 
+#include "geometry/model_row/model_row.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/placement.hpp"
 #include "stage/as_loaded.hpp"
@@ -9,6 +10,9 @@
 #include "stages/measure/help.hpp"
 #include "stages/measure/options.hpp"
 #include "stages/measure/report.hpp"
+
+#include <algorithm>
+#include <iterator>
 
 namespace facetmill::measure_stage {
 
@@ -68,8 +72,43 @@ std::vector<KeptAttribute> kept(Part& part, Unit unit, const MeasureOptions& o, 
     return all;
 }
 
+Json flat(const ModelRow& row, const std::string* part) {
+    Json json = Json::object();
+    if (part) json["part"] = *part;
+    const auto columns = model_columns();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto& value = row.values[i];
+        Json& cell = json[std::string(columns[i].name)] = nullptr;
+        if (value && columns[i].is_count())
+            cell = static_cast<std::uint64_t>(*value);
+        else if (value)
+            cell = *value;
+    }
+    json["unit"] = row.unit;
+    return json;
+}
+
+/// The rows of the selected parts, or of a scene of only them.
+std::vector<Json> model_rows(const Scene& scene, const MeasureOptions& o, const Context& context) {
+    const ModelRowSettings settings{o.overhang_angle.radians, true};
+    const auto selected = [&](const Part& part) { return context.selects(part, scene); };
+    std::vector<Json> rows;
+    if (o.per == Per::part) {
+        for (const Part& part : scene.parts)
+            if (selected(part)) rows.push_back(flat(model_row(scene, part, settings), &part.name));
+        return rows;
+    }
+    if (std::all_of(scene.parts.begin(), scene.parts.end(), selected))
+        return {flat(model_row(scene, settings), nullptr)};
+    Scene some;
+    some.unit = scene.unit;
+    some.up = scene.up;
+    std::copy_if(scene.parts.begin(), scene.parts.end(), std::back_inserter(some.parts), selected);
+    return {flat(model_row(some, settings), nullptr)};
+}
+
 Scene run(Scene scene, const MeasureOptions& o, Context& context, MeasureReport& report) {
-    const bool list_faces = std::any_of(o.path.begin(), o.path.end(), lists_faces);
+    const bool list_faces = lists_faces(o);
     const auto other = other_surface(o, scene, context);
     Measures all;
     for (auto& part : scene.parts) {
@@ -80,7 +119,9 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context, MeasureReport&
     if (all.parts.empty()) all.solid.reset();
     report = {
         to_string(scene.unit), o.density, {all.shell, measured(all.solid, o.density)}, std::move(all.parts)};
-    write_results(o, report, all.csv, context);
+    MeasureTables tables{std::move(all.csv)};
+    if (lists_models(o)) tables.models = model_rows(scene, o, context);
+    write_results(o, report, tables, context);
     return scene;
 }
 
@@ -94,17 +135,17 @@ struct MeasureStage : StageOf<run> {
     }
 };
 
-const RegisterStage registered =
-    make_stage<MeasureStage>({.name = "measure",
-                              .also_called = "volume area mass",
-                              .about = help::measure::about,
-                              .details = help::measure::details,
-                              .examples = {"measure", "measure: {density: 7.85, path: part.json}",
-                                           "measure: {path: [all.json, faces.csv]}",
-                                           "measure: {attributes: [mean_curvature, wall_thickness]}"},
-                              .tells = true,
-                              .crossing_faces = CrossingFacePolicy::name},
-                             declare_measure, declare_measure_report);
+const RegisterStage registered = make_stage<MeasureStage>(
+    {.name = "measure",
+     .also_called = "volume area mass",
+     .about = help::measure::about,
+     .details = help::measure::details,
+     .examples = {"measure", "measure: {density: 7.85, path: part.json}",
+                  "measure: {path: [all.json, faces.csv]}", "measure: {per: part, path: parts.csv}",
+                  "measure: {attributes: [mean_curvature, wall_thickness]}"},
+     .tells = true,
+     .crossing_faces = CrossingFacePolicy::name},
+    declare_measure, declare_measure_report);
 
 } // namespace
 
