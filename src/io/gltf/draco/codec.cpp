@@ -4,6 +4,7 @@
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/srgb_colours.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -196,8 +197,8 @@ const RegisterCodec drc({
     .extensions = {"drc"},
     .can = {.points = true, .draco = Capabilities::Draco::always, .attributes = "all at vertices"},
     .sniff = [](Span bytes) { return is_draco(bytes) ? 2 : 0; },
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
 });
 
 } // namespace
