@@ -1,6 +1,7 @@
 #include "stages/write/lattice.hpp"
 
 #include "base/math/numbers.hpp"
+#include "base/math/whole_number.hpp"
 #include "mesh/first_of_equal.hpp"
 #include "mesh/position_hash.hpp"
 #include "parallel/parallel.hpp"
@@ -70,7 +71,7 @@ std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
     std::vector<Place> places(mesh.vertex_count());
     parallel_for(places.size(), [&](std::size_t v) {
         for (std::size_t c = 0; c < 3; ++c)
-            places[v][c] = static_cast<std::int64_t>(
+            places[v][c] = whole_number<std::int64_t>(
                 std::floor((mesh.positions[v][c] - lattice.origin[c]) / lattice.step + 0.5));
     });
     const auto hash = [&](Index v) {
@@ -147,7 +148,7 @@ DistinctParts parts_sharing_grids(const Scene& scene, const std::vector<io::Part
         const double stretch =
             scene.parts[i].source_mesh >= 0 ? most[source_of(i)] : stretch_of(views[i].largest);
         // Float32 transforms of the same scale differ by less than a millionth.
-        return std::isfinite(stretch) ? std::llround(std::log2(stretch) * 0x1p20) : 0;
+        return whole_number<std::int64_t>(std::floor(std::log2(stretch) * 0x1p20 + 0.5));
     });
 }
 
