@@ -11,8 +11,8 @@ namespace facetmill::simplify_stage {
 namespace {
 
 constexpr std::size_t most_poses = 32, fewest_poses = 4;
-constexpr std::size_t posed_faces = 4000000; // of all compared surfaces together
-constexpr std::size_t samples = 20000;       // in each direction, besides all vertices
+constexpr std::size_t posed_faces = 1000000; // of all compared surfaces together
+constexpr std::size_t samples = 2000;        // in each direction, besides all vertices, which move most
 
 } // namespace
 

@@ -269,8 +269,8 @@ std::string line_of(const SimplifiedPart& part) {
         part.part + ": " + counts_text(r.faces_before, r.faces_after) + stop_text(r.stop);
     const std::string text = is_measured(part) ? line + "; " + deviation_text(*part.deviation) : line;
     if (!part.posed || !std::isfinite(part.posed->percent)) return text;
-    return fmt::format("{}; {} in the worst of {} poses ({})", text, percentage(part.posed->percent),
-                       part.posed->poses, part.posed->pose);
+    return fmt::format("{}; {} in the worst of {} ({})", text, percentage(part.posed->percent),
+                       counted(part.posed->poses, "pose"), part.posed->pose);
 }
 
 std::vector<std::string> lines_of(const SimplifyReport& report) {

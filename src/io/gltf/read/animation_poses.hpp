@@ -11,8 +11,8 @@ namespace facetmill::io {
 /// Poses of the skinned and morphed parts of a document.
 class AnimationPoses {
   public:
-    /// Samples at most `most` keys of all animations together, evenly. Throws malformed (E-GLTF) for a
-    /// document whose animations or nodes cannot be read.
+    /// Samples at most `most` keys (at least 2) of all animations together, evenly. Throws malformed (E-GLTF)
+    /// for a document whose animations or nodes cannot be read.
     AnimationPoses(const Document& document, std::size_t most);
     ~AnimationPoses();
     AnimationPoses(const AnimationPoses&) = delete;
