@@ -56,6 +56,7 @@ PUBLIC = {
     "io/gltf/document/nodes.hpp": "where meshes stand, for cells",
     "io/gltf/contents/byte_kinds.hpp": "what the bytes of a file are spent on",
     "io/gltf/contents/resolved_materials.hpp": "materials as pictures draw them",
+    "io/gltf/read/animation_poses.hpp": "poses in which simplify compares",
     "io/gltf/read/skinned_pose.hpp": "scenes as pictures show them",
     "io/gltf/contents/textures.hpp": "the images of documents, for textures",
     "io/gltf/optimize/document_optimizer.hpp": "documents without what nothing uses, for optimize and tangents",

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <span>
 
 namespace facetmill::cli {
 
@@ -24,6 +25,7 @@ the id of a message like facetmill explain. For any other word, facetmill lists 
 
 Examples
   facetmill docs
+  facetmill docs guides
   facetmill docs scan-to-web
   facetmill docs simplify | less
   facetmill docs W-UNITS
@@ -34,15 +36,21 @@ void add_pages(Topic::Kind kind, const std::vector<docs::ManualPage>& pages, std
         all.push_back({kind, std::string(page.name), docs::title_of(page), page.text});
 }
 
-std::string topic_list() {
-    static constexpr std::pair<Topic::Kind, const char*> groups[] = {{Topic::Kind::guide, "Guides"},
-                                                                     {Topic::Kind::page, "Pages"},
-                                                                     {Topic::Kind::command, "Commands"},
-                                                                     {Topic::Kind::stage, "Stages"}};
+struct TopicGroup {
+    Topic::Kind kind;
+    const char* title;
+};
+constexpr TopicGroup groups[] = {{Topic::Kind::guide, "Guides"},
+                                 {Topic::Kind::page, "Pages"},
+                                 {Topic::Kind::command, "Commands"},
+                                 {Topic::Kind::stage, "Stages"}};
+
+/// The topics of these groups.
+std::string topic_list(std::span<const TopicGroup> some) {
     std::string text =
         "facetmill docs TOPIC prints one of these topics, or explains an id (E-KEY, W-UNITS).\n";
     const auto all = topics();
-    for (const auto& [kind, title] : groups) {
+    for (const auto& [kind, title] : some) {
         text += fmt::format("\n{}\n", title);
         for (const Topic& topic : all)
             if (topic.kind == kind) text += fmt::format("  {:<16}  {}\n", topic.name, topic.about);
@@ -76,12 +84,18 @@ std::string names_near(const std::string& word) {
 
 int print_docs(const std::string& name, const CommandLine& line, Console& console) {
     if (name.empty()) {
-        print(topic_list());
+        print(topic_list(groups));
         return 0;
     }
     const auto all = topics();
     const auto topic =
         std::find_if(all.begin(), all.end(), [&](const Topic& t) { return same_word(t.name, name); });
+    const auto* const group = std::find_if(std::begin(groups), std::end(groups),
+                                           [&](const TopicGroup& g) { return lower_case(g.title) == name; });
+    if (topic == all.end() && group != std::end(groups)) { // stages is a page
+        print(topic_list({group, 1}));
+        return 0;
+    }
     if (topic == all.end()) {
         const MessageId* message = message_id(docs::id_of(name));
         if (!message)

@@ -13,6 +13,7 @@
 #include "io/gltf/read/skinned_pose.hpp"
 #include "io/images/png.hpp"
 #include "io/outputs/outputs.hpp"
+#include "mesh/face.hpp"
 #include "parallel/parallel.hpp"
 #include "report/contents.hpp"
 #include "report/render.hpp"
@@ -54,6 +55,7 @@ struct FileInfo {
     Scene scene;
     Properties properties;
     Box drawn;                                 ///< the box of what viewers draw
+    std::optional<double> drawn_area;          ///< if a skin or morph targets move vertices
     std::vector<report::Component> components; ///< the largest components
     FaceKinds kinds;
 
@@ -169,6 +171,7 @@ std::string as_text(const std::string& name, const FileInfo& info) {
     text += row("bounds", box_text(bounds));
     if (info.drawn.min != bounds.min || info.drawn.max != bounds.max)
         text += row("drawn_bounds", box_text(info.drawn));
+    if (info.drawn_area) text += row("drawn_area", number_text(*info.drawn_area));
     text += row("unit", to_string(info.scene.unit));
     text += row("up", to_string(info.scene.up));
     text += list_text("attributes", attribute_texts(info.scene));
@@ -183,6 +186,7 @@ Json json_of(const std::string& mesh, const FileInfo& info) {
     Json json = {{"file", mesh}, {"error", nullptr}};
     json.update(report::scene_json(info.scene, info.properties));
     json["drawn_bounds"] = report::box_json(info.drawn);
+    json["drawn_area"] = info.drawn_area.value_or(info.properties.area);
     json["components_detail"] = report::list_json(info.components, report::component_fields());
     json["components_omitted"] = info.omitted();
     json["face_kinds"] = face_kinds_fields().json(&info.kinds);
@@ -225,6 +229,14 @@ Picture info_picture(const std::string& mesh, const Scene& scene, const Console&
     return picture_of(seen, settings);
 }
 
+double area_of(const Scene& scene) {
+    double twice = 0;
+    for (const Part& part : scene.parts)
+        for (Index f = 0; f < part.mesh.face_count(); ++f)
+            twice += length(area_vector(part.mesh, f, part.transform));
+    return twice / 2;
+}
+
 FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
                  std::vector<Picture>& pictures) {
     ProgressSteps steps({3, options.picture.empty() ? 0.0 : 6.0, options.self_intersections ? 24.0 : 6.0, 2});
@@ -238,6 +250,7 @@ FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Cons
     steps.next();
     info.properties = inspect(info.scene, {options.self_intersections});
     info.drawn = io::posed_bounds(info.scene);
+    if (const auto posed = io::posed(info.scene)) info.drawn_area = area_of(*posed);
     steps.next();
     info.components = report::largest_components(info.scene, info.properties, max_components);
     info.kinds = face_kinds(info.scene);

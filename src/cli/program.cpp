@@ -157,6 +157,29 @@ std::string hint_for(const Command& command, const Arguments& arguments, const s
     return fmt::format("see facetmill {} --help", command.name);
 }
 
+/// A hint for a missing argument or an invalid value. fault: begins with the name of the argument.
+std::string fault_hint(const Command& command, const Arguments& arguments, const std::string& fault,
+                       const CommandLine& line) {
+    const std::string name = fault.substr(0, fault.find_first_of(": "));
+    const Argument* option = name.starts_with("-") ? arguments.find(name) : nullptr;
+    if (option && option->range)
+        return fmt::format("give a number from {} to {}, or leave out {}", option->range->first,
+                           option->range->second, name);
+    if (!fault.ends_with("is required")) return fmt::format("see facetmill {} --help", command.name);
+    if (option)
+        return fmt::format("add it, for example {} {}", name,
+                           option->choices.empty() ? "out" : option->choices.front());
+    if (name == "PIPELINE" && arguments.find("--input"))
+        return fmt::format("name a pipeline first: facetmill {} PIPELINE --input FILE ...; facetmill new "
+                           "lists the built-in ones",
+                           command.name);
+    if (name == "PIPELINE") return hint_for(command, arguments, "FILE", line);
+    std::string usage = "facetmill " + command.name;
+    for (const Argument& argument : arguments.all())
+        if (argument.needed && !argument.names.starts_with("-")) usage += " " + argument.names;
+    return usage;
+}
+
 /// Refuses words that belong to no argument: an unknown option begins with a dash, and other words are extra
 /// values.
 void refuse_extras(const Command& command, const Arguments& arguments, const std::vector<std::string>& extras,
@@ -232,7 +255,7 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
                     line.value(e.value));
     } catch (const std::invalid_argument& e) {
         throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
-                    hint_for(command, arguments, "FILE", line), line.mark(0));
+                    fault_hint(command, arguments, e.what(), line), line.mark(0));
     } catch (Error& e) {
         throw e.at(line.mark(0));
     }

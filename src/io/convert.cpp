@@ -49,7 +49,8 @@ Conversion convert(Scene& scene, const Convention& target) {
     lengths.reserve(scene.parts.size());
     for (const Part& part : scene.parts) lengths.push_back({part.skinned ? done.factor : 1, done.factor});
     scale_material_lengths(scene, lengths);
-    move_cameras_and_lights(scene, std::vector<bool>(scene.parts.size(), true), done.transform);
+    done.keys_kept =
+        !move_cameras_and_lights(scene, std::vector<bool>(scene.parts.size(), true), done.transform);
     return done;
 }
 

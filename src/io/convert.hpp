@@ -16,8 +16,15 @@ struct Conversion {
     bool turned = false;       ///< the up axis changed
     bool unit_guessed = false; ///< the target has a unit but the scene has none: numbers are unchanged
     bool up_guessed = false;
-    Transform transform; ///< from the old world to the new world
+    Transform transform;    ///< from the old world to the new world
+    bool keys_kept = false; ///< keys of animated lengths of cameras and lights have the old numbers
 };
+
+/// The warning (W-TRANSFORM) about `keys_kept`, and its hint.
+inline constexpr const char* keys_kept_message =
+    "the lengths of cameras and lights that KHR_animation_pointer animates keep their numbers";
+inline constexpr const char* keys_kept_hint =
+    "scale the keys of these animations in the program that made them, or keep the unit and the size";
 
 /// A quarter turn about x that turns the axis `from` to `to`; identity if they are the same.
 [[nodiscard]] Transform turn_up(UpAxis from, UpAxis to);

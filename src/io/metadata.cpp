@@ -72,8 +72,8 @@ void add_contents(std::vector<std::string>& lost, const Json& json, const std::s
 std::vector<Metadata> metadata_of(const Scene& scene) {
     std::vector<Metadata> all;
     const auto add = [&](std::string name, const Json& value) {
-        const bool is_known =
-            std::any_of(all.begin(), all.end(), [&](const Metadata& m) { return m.name == name; });
+        const auto known = [&](const Metadata& m) { return m.name == name && m.value == value; };
+        const bool is_known = std::any_of(all.begin(), all.end(), known);
         if (!is_known && !value.is_null()) all.push_back({std::move(name), value});
     };
     for (const auto& document : scene.documents) {
@@ -108,9 +108,13 @@ std::string metadata_comments(const Scene& scene, std::string_view before) {
 void warn_of_lost(Written& written, const Scene& scene, const char* format,
                   const std::set<std::string>& kept) {
     std::vector<std::string> lost, names;
-    for (const auto& [name, value] : metadata_of(scene))
-        if (!kept.contains("metadata") && !kept.contains(name) && name != comments_key)
-            names.push_back(one_line(name)); // comments name programs and dates more often than anything else
+    std::set<std::string> seen;
+    for (const auto& [name, value] : metadata_of(scene)) {
+        const bool is_first = seen.insert(name).second, has_place = kept.contains(name);
+        // Comments name programs and dates more often than anything else.
+        if (kept.contains("metadata") || (has_place && is_first) || name == comments_key) continue;
+        names.push_back(one_line(name) + (has_place ? " of a further file" : ""));
+    }
     if (!names.empty()) lost.push_back("the metadata " + some_of(names));
     for (const auto& document : scene.documents)
         add_contents(lost, parse_json(document->json, Broken::discarded), kept);

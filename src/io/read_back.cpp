@@ -1,6 +1,7 @@
 #include "io/read_back.hpp"
 
 #include "base/math/random.hpp"
+#include "base/math/whole_number.hpp"
 #include "base/progress.hpp"
 #include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -244,7 +245,7 @@ class Grid {
     Cell cell_of(const Vec3& p) const {
         Cell c;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            c[axis] = static_cast<std::int64_t>(std::floor(p[axis] / cell_));
+            c[axis] = whole_number<std::int64_t>(std::floor(p[axis] / cell_));
         return c;
     }
     /// A key of bits_ bits: the hash of the block, then the index of the cell in the block.

@@ -1,6 +1,7 @@
 #include "mesh/cut_memory.hpp"
 
 #include "base/math/random.hpp"
+#include "base/math/whole_number.hpp"
 
 #include <algorithm>
 #include <map>
@@ -190,8 +191,7 @@ class PlaneBuckets {
     }
     static std::uint64_t key(double a, double b) {
         const auto whole = [](double x) { // offsets may be far beyond the points
-            return static_cast<std::uint64_t>(
-                static_cast<std::int64_t>(std::floor(std::clamp(x / cell, -9e18, 9e18))));
+            return static_cast<std::uint64_t>(whole_number<std::int64_t>(std::floor(x / cell)));
         };
         return hashed(whole(a), whole(b));
     }

@@ -74,6 +74,8 @@ Json info_schema() {
     drawn["description"] = "The box of what viewers draw: skinned and morphed parts in their default pose, "
                            "animated nodes at their largest scale, without hidden parts and levels.";
     scene["properties"]["drawn_bounds"] = std::move(drawn);
+    scene["properties"]["drawn_area"] =
+        nullable("number", "The area of all parts, with skinned and morphed parts in their default pose.");
     scene["properties"]["error"] = {
         {"anyOf", Json::array({error, typed("null")})},
         {"description", "Why the file cannot be read. Other keys are then missing."}};

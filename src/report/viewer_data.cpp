@@ -1,5 +1,6 @@
 #include "report/viewer_data.hpp"
 
+#include "base/math/whole_number.hpp"
 #include "io/images/png.hpp"
 #include "io/packing.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 std::uint32_t quantised(double x, double low, double size, std::uint32_t most) {
     if (!(size > 0)) return 0;
     const double part = std::clamp((x - low) / size, 0.0, 1.0);
-    return static_cast<std::uint32_t>(std::floor(part * most + 0.5));
+    return whole_number<std::uint32_t>(std::floor(part * most + 0.5));
 }
 
 /// Splits numbers into planes of bytes: the lowest bytes of all numbers, then the next.

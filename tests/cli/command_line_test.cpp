@@ -152,6 +152,28 @@ TEST_CASE("stages behind a command that takes a pipeline are answered with what 
     CHECK(two.find("'batch' does not accept 'c.ply'") == std::string::npos);
 }
 
+TEST_CASE("hints for missing arguments and bad numbers fit, and following them leads further", "[cli]") {
+    const auto hint = [](const std::vector<std::string>& words) {
+        const std::string said = message(words);
+        const auto at = said.find("hint: ");
+        return at == said.npos ? said : said.substr(at + 6, said.find('\n', at) - at - 6);
+    };
+    for (const char* command : {"run", "batch", "info"})
+        CHECK(hint({command, "--threads", "0", "web"}) ==
+              "give a number from 1 to 4096, or leave out --threads");
+    CHECK(hint({"batch", "web", "--input", "a.stl"}) == "add it, for example --output-dir out");
+    CHECK(hint({"export", "web", "--input", "a.stl", "-o", "out"}) == "add it, for example --to ninja");
+    CHECK(hint({"batch", "--input", "a.stl", "-o", "out"}) ==
+          "name a pipeline first: facetmill batch PIPELINE --input FILE ...; facetmill new lists the "
+          "built-in ones");
+    CHECK(hint({"diff", "a.stl"}) == "facetmill diff A B");
+    CHECK(hint({"convert", "a.stl"}) == "facetmill convert IN OUT");
+}
+
+TEST_CASE("docs prints each group of topics alone", "[cli]") {
+    for (const char* group : {"guides", "pages", "commands"}) CHECK(message({"docs", group}) == "exit 0");
+}
+
 TEST_CASE("help of a word is that of docs", "[cli]") {
     CHECK(message({"help", "simplfy"}) ==
           "command line:1:16: error[E-ARGUMENT]: topic 'simplfy' does not exist\n  facetmill help simplfy\n  "

@@ -1,7 +1,9 @@
 """Commands that people type first: they work, or the message has the text to type."""
 
+import base64
 import json
 import re
+import struct
 
 from support import Case, main
 
@@ -68,6 +70,27 @@ class FirstUse(Case):
         self.assertIn("none.off", run.stderr)
         self.assertEqual(self.mill("info", "part.off", "bad.off", expect=6).stdout.count("volume"), 1)
         self.assertEqual(json.loads(self.mill("info", "--json", "part.off").stdout)["file"], "part.off")
+
+    def test_info_of_a_skinned_mesh_has_the_area_that_is_drawn(self):
+        # A triangle of area 0.5, whose joint is 100 times as large.
+        data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(12) + struct.pack("<12f", *(1, 0, 0, 0) * 3)
+        accessor = {"count": 3, "type": "VEC4"}
+        self.write("skin.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0, "skin": 0}, {"scale": [100, 100, 100]}], "skins": [{"joints": [1]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [1, 1, 0]},
+                          {"bufferView": 1, "componentType": 5121, **accessor},
+                          {"bufferView": 2, "componentType": 5126, **accessor}],
+            "bufferViews": [{"buffer": 0, "byteOffset": at, "byteLength": size} for at, size in ((0, 36), (36, 12), (48, 48))],
+            "buffers": [{"byteLength": len(data),
+                         "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}))
+        info = json.loads(self.mill("info", "--json", "skin.gltf").stdout)
+        self.assertEqual((info["area"], info["drawn_area"]), (.5, 5000))
+        self.assertRegex(self.mill("info", "skin.gltf").stdout, r"drawn_area +5000")
+        info = json.loads(self.mill("info", "--json", "part.off").stdout)
+        self.assertEqual(info["area"], info["drawn_area"])
 
     def test_foreach_over_one_part(self):
         self.mill("pipe", "load", "part.off", "!", "foreach", "part=*", "[", "write", "one.ply", "]")

@@ -94,3 +94,35 @@ TEST_CASE("one warning names all that a format cannot hold", "[io]") {
           "not written, because PLY cannot hold it: 1 camera, the lights, the extras of 1 node\n");
     CHECK(losses(written(scene, "glb")).empty());
 }
+
+TEST_CASE("other values of a further file are kept or named", "[io]") {
+    Scene scene = titled_scene();
+    Scene other = scene;
+    Document document = *other.documents.at(0);
+    Json json = Json::parse(document.json);
+    json["asset"]["extras"]["Title"] = "Head";
+    document.json = json.dump();
+    scene.documents.push_back(std::make_shared<const Document>(std::move(document)));
+    for (const char* format : {"ply", "obj", "off"}) {
+        const std::string text = text_of(written(scene, format));
+        CHECK(text.find("Title: Bust") != text.npos);
+        CHECK(text.find("Title: Head") != text.npos);
+    }
+    CHECK(losses(written(scene, "3mf")).find("the metadata unit, Title of a further file") !=
+          std::string::npos);
+}
+
+TEST_CASE("extras of data that is rewritten are named", "[io]") {
+    Scene scene = titled_scene();
+    Document document = *scene.documents.at(0);
+    Json json = Json::parse(document.json);
+    json["accessors"][0]["extras"] = {{"survey", 7}};
+    json["buffers"][0]["extras"] = {{"from", "x"}};
+    document.json = json.dump();
+    scene.documents[0] = std::make_shared<const Document>(document);
+    CHECK(losses(written(scene, "gltf")).empty()); // the mesh is unchanged
+    scene.parts.at(0).mesh.positions[0].x += 1;
+    scene.parts[0].changed = true;
+    const std::string lost = losses(written(scene, "gltf"));
+    CHECK(lost.find("the extras of data that is rewritten are lost: 1 accessor") == 0);
+}

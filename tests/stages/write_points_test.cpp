@@ -3,6 +3,7 @@
 #include "base/json.hpp"
 #include "io/codec.hpp"
 #include "support/bench.hpp"
+#include "support/colours.hpp"
 #include "support/failure.hpp"
 
 #include <cmath>
@@ -60,7 +61,7 @@ Mesh cloud(std::size_t points) {
         numbers.push_back(static_cast<float>(i));
     }
     mesh.attributes = {{"NORMAL", Domain::wedge, Role::normal, 3, false, normals},
-                       {"COLOR_0", Domain::wedge, Role::colour, 3, true, colours},
+                       {"COLOR_0", Domain::wedge, Role::colour, 3, true, linear_words(colours, 3)},
                        {"_height", Domain::wedge, Role::generic, 1, false, numbers}};
     return mesh;
 }

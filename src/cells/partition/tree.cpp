@@ -1,4 +1,5 @@
 #include "cells/partition/tree.hpp"
+#include "base/math/whole_number.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +64,7 @@ Grid::Grid(const Box& bounds, std::uint32_t resolution) : origin_(bounds.min) {
     if (!std::isfinite(per_unit_)) per_unit_ = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
         size_[axis] = std::clamp<std::uint32_t>(
-            static_cast<std::uint32_t>(std::ceil(extent[axis] * per_unit_)), 1, resolution);
+            whole_number<std::uint32_t>(std::ceil(extent[axis] * per_unit_)), 1, resolution);
     counts_.assign(std::size_t{size_[0]} * size_[1] * size_[2], 0);
 }
 

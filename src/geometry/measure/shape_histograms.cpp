@@ -3,6 +3,7 @@
 #include "base/math/arc_tangents.hpp"
 #include "base/math/portable_math.hpp"
 #include "base/math/simd.hpp"
+#include "base/math/whole_number.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
 #include "parallel/parallel.hpp"
@@ -107,7 +108,7 @@ double cosine_between(const Vec3& edge, double its_length, const Vec3& next, dou
 /// smallest: the smallest angle. worst: the largest aspect ratio.
 void add_shape(double smallest, double worst, Shapes& out) {
     const double angle = smallest * 180 / pi;
-    out.angles.add(static_cast<std::size_t>(angle / angle_bin), angle);
+    out.angles.add(whole_number<std::size_t>(angle / angle_bin), angle);
     if (std::isfinite(worst))
         out.aspects.add(power_bin(worst, 0), worst);
     else

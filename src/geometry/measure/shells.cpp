@@ -15,15 +15,13 @@ namespace facetmill {
 
 namespace {
 
-/// Whether the boxes of two components overlap: the boxes in order of x, each compared with those that begin
-/// before it ends.
+/// Whether the boxes of two components meet.
 bool any_overlap(const Mesh& mesh, const Components& components) {
     std::vector<Box> boxes(components.count);
     for (Index f = 0; f < mesh.face_count(); ++f) add_corners(boxes[components.of_face[f]], mesh, f);
-    std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.min.x < b.min.x; });
+    const BoxTree tree(boxes);
     for (std::size_t i = 0; i < boxes.size(); ++i)
-        for (std::size_t k = i + 1; k < boxes.size() && boxes[k].min.x <= boxes[i].max.x; ++k)
-            if (boxes_meet(boxes[i], boxes[k])) return true;
+        if (tree.any_of(boxes[i], [&](Index other) { return other != i; })) return true;
     return false;
 }
 

@@ -57,6 +57,11 @@ void check_limit(const Box& box, const HatchSettings& s) {
             ErrorKind::limit, "E-HATCH",
             fmt::format("hatching would take about {:.0f} lines, and at most {} are drawn", lines, s.limit),
             "choose a larger spacing");
+    constexpr double whole = 0x1p52; // lines are counted from the origin
+    if (!(std::max(length(box.min), length(box.max)) < whole * s.spacing))
+        throw Error(ErrorKind::limit, "E-HATCH",
+                    "the outline is too far from the origin for lines at this spacing",
+                    "choose a larger spacing, or use transform: {centre: true} first");
 }
 
 /// The segments between crossings whose winding number is kept, sorted by line and position. Segments run

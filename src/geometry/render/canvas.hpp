@@ -2,6 +2,7 @@
 // Draws triangles and dots on a z-buffer of samples. Each sample stores the number of the visible triangle
 // or dot.
 
+#include "base/math/whole_number.hpp"
 #include "geometry/render/render.hpp"
 
 #include <algorithm>
@@ -230,7 +231,7 @@ void for_each_sample(const CanvasTriangle& t, bool front, const SampleBox& box, 
 inline void draw_dot(const Vec3& p, double side, std::uint32_t number, Canvas& canvas) {
     const double half = side * Canvas::samples / 2;
     const auto bound = [&](double x, int count) {
-        return static_cast<int>(std::clamp<double>(std::ceil(x - 0.5), 0, count));
+        return std::clamp(whole_number<int>(std::ceil(x - 0.5)), 0, count);
     };
     const int left = bound(p.x - half, canvas.width), right = bound(p.x + half, canvas.width);
     for (int y = bound(p.y - half, canvas.height); y < bound(p.y + half, canvas.height); ++y)

@@ -1,6 +1,7 @@
 #include "geometry/render/render.hpp"
 
 #include "base/math/simd.hpp"
+#include "base/math/whole_number.hpp"
 #include "base/progress.hpp"
 #include "geometry/render/layers.hpp"
 #include "geometry/render/legend.hpp"
@@ -58,7 +59,7 @@ void draw_ring(Picture& picture, double x, double y) {
     const double radius = std::max(6.0, picture.width / 60.0);
     constexpr double line = 1.5, rim = 2.5;
     const auto bound = [&](double at, int count) {
-        return static_cast<int>(std::clamp<double>(std::floor(at), 0, count));
+        return std::clamp(whole_number<int>(std::floor(at)), 0, count);
     };
     const double reach = radius + rim + 1;
     for (int py = bound(y - reach, picture.height); py < bound(y + reach, picture.height); ++py)

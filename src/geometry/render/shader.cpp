@@ -1,5 +1,6 @@
 #include "geometry/render/shader.hpp"
 
+#include "base/math/whole_number.hpp"
 #include "geometry/render/srgb.hpp"
 
 namespace facetmill {
@@ -145,7 +146,7 @@ Colour Shader::of_direction(const Spot& spot, const Vec3& facing) const {
     const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
     Colour colour{};
     for (std::size_t c = 0; c < 3; ++c)
-        colour[c] = linear_of(static_cast<std::uint8_t>(std::floor(255 * (0.5 + 0.5 * world[c]) + 0.5)));
+        colour[c] = linear_of(whole_number<std::uint8_t>(std::floor(255 * (0.5 + 0.5 * world[c]) + 0.5)));
     return colour;
 }
 

@@ -7,11 +7,17 @@
 
 namespace facetmill {
 
-namespace {
-
-double decoded_srgb(double x) {
-    return x <= 0.04045 ? x / 12.92 : exponential(2.4 * logarithm((x + 0.055) / 1.055));
+double linear_fraction(double encoded) {
+    if (!(encoded > 0.04045)) return encoded / 12.92;
+    return exponential(2.4 * logarithm((encoded + 0.055) / 1.055));
 }
+
+double srgb_fraction(double linear) {
+    if (!(linear > 0.0031308)) return 12.92 * linear;
+    return 1.055 * exponential(logarithm(linear) / 2.4) - 0.055;
+}
+
+namespace {
 
 struct SrgbTables {
     static constexpr std::size_t cells = 4096;
@@ -21,9 +27,9 @@ struct SrgbTables {
 
     SrgbTables() {
         for (std::size_t i = 0; i < 256; ++i)
-            linear[i] = static_cast<float>(decoded_srgb(static_cast<double>(i) / 255));
+            linear[i] = static_cast<float>(linear_fraction(static_cast<double>(i) / 255));
         for (std::size_t i = 0; i < 255; ++i)
-            upper[i] = static_cast<float>(decoded_srgb((static_cast<double>(i) + 0.5) / 255));
+            upper[i] = static_cast<float>(linear_fraction((static_cast<double>(i) + 0.5) / 255));
         for (std::size_t i = 0; i < cells; ++i) {
             const float low = static_cast<float>(i) / cells;
             first[i] =

@@ -10,4 +10,8 @@ namespace facetmill {
 /// The sRGB byte nearest to linear light. Values below 0 or above 1 are clamped, and NaN gives 0.
 [[nodiscard]] std::uint8_t srgb_of(float linear);
 
+/// The same for fractions of any precision. Fractions outside 0 to 1 follow the formula, and NaN stays NaN.
+[[nodiscard]] double linear_fraction(double encoded);
+[[nodiscard]] double srgb_fraction(double linear);
+
 } // namespace facetmill

@@ -1,5 +1,6 @@
 #include "geometry/render/texture.hpp"
 
+#include "base/math/whole_number.hpp"
 #include "geometry/render/srgb.hpp"
 #include "parallel/parallel.hpp"
 
@@ -77,10 +78,10 @@ Level halved(const Level& large, bool srgb) {
 
 /// Maps a pixel coordinate into [0, size).
 int wrapped(double x, int size, TextureWrap wrap) {
-    if (wrap == TextureWrap::clamp) return static_cast<int>(std::clamp<double>(x, 0, size - 1));
+    if (wrap == TextureWrap::clamp) return std::clamp(whole_number<int>(x), 0, size - 1);
     const double period = wrap == TextureWrap::mirror ? 2.0 * size : size;
     const double inside = x - std::floor(x / period) * period;
-    const int i = static_cast<int>(std::clamp<double>(inside, 0, period - 1));
+    const int i = whole_number<int>(std::clamp<double>(inside, 0, period - 1));
     return i < size ? i : 2 * size - 1 - i;
 }
 

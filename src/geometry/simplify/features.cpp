@@ -1,5 +1,6 @@
 #include "geometry/simplify/features.hpp"
 
+#include "base/math/whole_number.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 #include "parallel/parallel.hpp"
@@ -26,9 +27,8 @@ Labels labels_of(const State& s, const Mesh& mesh, std::string_view name) {
     if (!a || a->components != 1) return {};
     Labels list;
     resize_large(list, s.face_slots());
-    parallel_for(list.size(), [&](std::size_t f) {
-        list[f] = static_cast<Index>(std::clamp(a->value(s.face_source[f], 0), 0.0, 4294967295.0));
-    });
+    parallel_for(list.size(),
+                 [&](std::size_t f) { list[f] = whole_number<Index>(a->value(s.face_source[f], 0)); });
     const bool several = std::any_of(list.begin(), list.end(), [&](Index x) { return x != list[0]; });
     return several ? list : Labels{};
 }

@@ -217,6 +217,14 @@ struct SimplifyPartsSettings {
     std::function<SurfaceSize(std::size_t part)> size_before; ///< world size of an input part
 };
 
+/// The largest deviation of a skinned or morphed part over sampled poses, in scene units.
+struct PosedDeviation {
+    std::size_t poses = 0; ///< the number of compared poses
+    double maximum = 0;
+    double percent = 0; ///< of the diagonal of the input in that pose
+    std::string pose;   ///< the name of the pose with the maximum
+};
+
 /// A simplified part, or one of its levels.
 struct SimplifiedPart {
     /// The size of a surface.
@@ -239,6 +247,7 @@ struct SimplifiedPart {
     std::optional<Topology> topology; ///< the topology, for methods that may change it
     std::optional<Sizes> sizes;       ///< the sizes, if measured
     std::optional<DeviationResult> deviation;
+    std::optional<PosedDeviation> posed{};
     std::optional<SurfaceSize> surface{}; ///< set if this part itself was measured
 };
 

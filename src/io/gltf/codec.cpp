@@ -453,6 +453,32 @@ void merge_other_documents(Patch& patch) {
     }
 }
 
+/// The lists of a document that describe its data. Rewriting the data makes new items.
+constexpr std::array<const char*, 3> data_lists{"accessors", "bufferViews", "buffers"},
+    data_nouns{"accessor", "buffer view", "buffer"};
+
+/// [data_lists] the number of items with extras.
+std::array<std::size_t, 3> count_data_extras(const Json& document) {
+    std::array<std::size_t, 3> counts{};
+    for (std::size_t l = 0; l < counts.size(); ++l)
+        for (std::size_t i = 0; i < count_of(document, data_lists[l]); ++i) {
+            const Json& item = document[data_lists[l]][i];
+            counts[l] += item.is_object() && !item.value("extras", Json()).empty() ? 1 : 0;
+        }
+    return counts;
+}
+
+void warn_of_data_extras(Patch& patch, const std::array<std::size_t, 3>& before) {
+    const auto after = count_data_extras(patch.builder.json());
+    std::vector<std::string> lost;
+    for (std::size_t l = 0; l < before.size(); ++l)
+        if (before[l] > after[l]) lost.push_back(counted(before[l] - after[l], data_nouns[l]));
+    if (!lost.empty())
+        patch.warn("W-LOST",
+                   fmt::format("the extras of data that is rewritten are lost: {}", join_texts(lost)),
+                   "move them to the mesh or the primitive, whose extras are kept");
+}
+
 /// A copy of the scene with colours of faces moved to wedges, and with NaN replaced in its attributes,
 /// because glTF forbids NaN; empty without either.
 std::optional<Scene> fitted_scene(const Scene& given, Written& written) {
@@ -480,6 +506,8 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     BaseDocument found = base_document(scene);
     const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
+    const auto data_extras =
+        document ? count_data_extras(found.json) : std::array<std::size_t, data_lists.size()>{};
     Builder builder(document ? std::move(found.json) : empty_document(),
                     document ? &document->buffers : nullptr);
     std::map<std::size_t, Transform> skin_moves;
@@ -515,6 +543,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
         shortens ? largest_worlds(builder.current(), node_frames(builder.json())) : std::vector<Transform>();
     Bytes buffer = builder.finish(written.warnings);
     drop_nulls(builder.json());
+    warn_of_data_extras(patch, data_extras);
     // Without meshes, names are what animations and programs find nodes by.
     if (settings.drop_names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.

@@ -69,8 +69,8 @@ struct LengthGrowth {
 /// copies. growth: [parts].
 void scale_material_lengths(Scene& scene, const std::vector<LengthGrowth>& growth);
 /// Moves the cameras and lights of each document whose parts all move alike, and scales their lengths. moved:
-/// [parts].
-void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by);
+/// [parts]. Returns false if KHR_animation_pointer animates such lengths, whose keys keep their numbers.
+[[nodiscard]] bool move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by);
 /// [parts] the thicknesses of the volumes (KHR_materials_volume) in the world, ascending.
 [[nodiscard]] std::vector<std::vector<double>> thicknesses(const Scene& scene);
 

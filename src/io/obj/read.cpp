@@ -5,6 +5,7 @@
 #include "io/flatten.hpp"
 #include "io/images/image_files.hpp"
 #include "io/obj/materials.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
 #include "io/write_options.hpp"
@@ -655,8 +656,8 @@ const RegisterCodec codec({
             .library = ".mtl",
             .copies_images = true},
     .sniff = sniff,
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
     .peek = peek,
 });
 } // namespace

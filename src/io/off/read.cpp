@@ -3,6 +3,7 @@
 #include "base/progress.hpp"
 #include "io/attributes.hpp"
 #include "io/not_finite.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
 
@@ -387,8 +388,8 @@ const RegisterCodec codec({
             const std::string_view word = text.word();
             return kind_named(word) ? 2 : word.starts_with("OFF") ? 1 : 0;
         },
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
     .peek = [](const Input& input,
                FileHeader& header) { take_stated(header, stated_in_lines(as_text(input.bytes()), "OFF")); },
 });

@@ -5,6 +5,7 @@
 #include "io/ply/ply.hpp"
 #include "io/ply/table.hpp"
 #include "io/ply/textures.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/stated.hpp"
 #include "io/write_options.hpp"
 
@@ -65,8 +66,8 @@ const RegisterCodec codec({
             const std::string_view text = as_text(bytes);
             return text.starts_with("ply\n") || text.starts_with("ply\r") || text.starts_with("ply ") ? 2 : 0;
         },
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
     .peek =
         [](const Input& input, FileHeader& header) {
             const Header read = read_header(input);

@@ -4,6 +4,7 @@
 #include "base/text/spelling.hpp"
 #include "io/attributes.hpp"
 #include "io/not_finite.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
 #include "mesh/invariants.hpp"
@@ -363,8 +364,8 @@ const RegisterCodec codec({
                            : 1;
             return has_binary_size(bytes) && bytes.size() > head ? 2 : 0;
         },
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
     .peek =
         [](const Input& input, FileHeader& header) {
             if (!is_text(input.bytes())) take_stated(header, stated_in_head(input.bytes()));

@@ -3,6 +3,7 @@
 #include "geometry/render/srgb.hpp"
 #include "io/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -38,25 +39,60 @@ struct Blend {
     }
 };
 
+/// A layer whose group is known.
+struct KnownLayer {
+    const Group* group;
+    std::size_t number; ///< among all layers
+    bool multiply;      ///< otherwise mixed by alpha with the layers below
+};
+
+std::vector<KnownLayer> known_layers(const Layers& layers, const Model& model) {
+    std::vector<KnownLayer> known;
+    for (std::size_t l = 0; l < layers.groups.size(); ++l)
+        if (const auto group = model.groups.find(layers.groups[l]); group != model.groups.end())
+            known.push_back(
+                {&group->second, l, l > 0 && l - 1 < layers.multiply.size() && layers.multiply[l - 1]});
+    return known;
+}
+
+/// The layers that are seen, from the lowest. Only the last texture can stay, and only if the layers above
+/// multiply it.
+std::vector<KnownLayer> seen_layers(const std::vector<KnownLayer>& known) {
+    const auto is_texture = [](const KnownLayer& layer) { return layer.group->textured(); };
+    const auto top = std::find_if(known.rbegin(), known.rend(), is_texture).base();
+    const bool stays = top != known.begin() &&
+                       std::all_of(top, known.end(), [](const KnownLayer& layer) { return layer.multiply; });
+    std::vector<KnownLayer> seen;
+    for (auto at = known.begin(); at != known.end(); ++at) {
+        const bool hidden = stays && at + 1 < top && !(top - 1)->multiply;
+        if (!hidden && (!is_texture(*at) || (stays && at + 1 == top))) seen.push_back(*at);
+    }
+    return seen;
+}
+
 } // namespace
 
-Group blended(const Layers& layers, const std::map<std::uint32_t, Group>& groups, const std::string& name) {
+Group blended(const Layers& layers, Model& model, const std::string& name) {
+    const std::vector<KnownLayer> known = known_layers(layers, model), seen = seen_layers(known);
+    if (seen.size() < known.size()) ++model.skipped["layers beside a texture"];
     Group all;
+    for (const KnownLayer& layer : seen)
+        if (layer.group->textured()) all.texture = layer.group->texture;
     all.colours.reserve(layers.multis.size());
     for (const std::vector<std::uint32_t>& multi : layers.multis) {
         Blend blend;
-        for (std::size_t l = 0; l < layers.groups.size(); ++l) {
-            const auto group = groups.find(layers.groups[l]);
-            if (group == groups.end()) continue;
-            const std::size_t index = l < multi.size() ? multi[l] : 0;
-            if (index >= group->second.colours.size())
+        for (const KnownLayer& layer : seen) {
+            const std::size_t index = layer.number < multi.size() ? multi[layer.number] : 0;
+            if (index >= layer.group->size())
                 malformed(name, 0, "E-3MF",
                           fmt::format("multiproperties name property {} of group {}, which has {}", index,
-                                      group->first, group->second.colours.size()));
-            blend.add(group->second.colours[index],
-                      l > 0 && l - 1 < layers.multiply.size() && layers.multiply[l - 1]);
+                                      layers.groups[layer.number], layer.group->size()));
+            if (layer.group->textured())
+                all.points.push_back(layer.group->points[index]);
+            else
+                blend.add(layer.group->colours[index], layer.multiply);
         }
-        all.colours.push_back(blend.colour());
+        if (!all.textured() || seen.size() > 1) all.colours.push_back(blend.colour());
     }
     return all;
 }

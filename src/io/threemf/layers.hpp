@@ -1,5 +1,6 @@
 #pragma once
-// Multiproperties of 3MF: several colours of a triangle that lie on each other. Private to threemf.
+// Multiproperties of 3MF: several colours or textures of a triangle that lie on each other. Private to
+// threemf.
 
 #include "io/threemf/model.hpp"
 
@@ -11,9 +12,10 @@ struct Layers {
     std::vector<std::vector<std::uint32_t>> multis; ///< for each property its index into each group
 };
 
-/// The colours of the layers together. Layers of groups that are not read, such as textures, do not count.
-/// name: of the model, for messages. Throws malformed (E-3MF) for an index beyond its group.
-[[nodiscard]] Group blended(const Layers& layers, const std::map<std::uint32_t, Group>& groups,
-                            const std::string& name);
+/// The colours of the layers together. The highest texture stays a texture if the layers above it multiply
+/// it; it hides the layers below unless it multiplies them. Other layers, whose groups are not read or whose
+/// textures have no place, do not count: adds them to model.skipped. name: of the model, for messages. Throws
+/// malformed (E-3MF) for an index beyond its group.
+[[nodiscard]] Group blended(const Layers& layers, Model& model, const std::string& name);
 
 } // namespace facetmill::io::threemf

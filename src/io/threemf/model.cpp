@@ -31,7 +31,17 @@ class ModelReader {
     Model read(Span xml) {
         read_xml(xml, name_, handler());
         if (!is_model_) malformed(name_, 0, "E-3MF", "expected <model> as the outermost element");
-        for (const auto& [id, layers] : layers_) model_.groups[id] = blended(layers, model_.groups, name_);
+        for (const auto& [id, group] : model_.groups)
+            if (group.textured() && !model_.textures.contains(group.texture))
+                model_.faults.push_back(
+                    fmt::format("the texture {} of group {} does not exist", group.texture, id));
+        for (const auto& [id, layers] : layers_) {
+            const auto known = [&](std::uint32_t group) { return model_.groups.contains(group); };
+            if (std::any_of(layers.groups.begin(), layers.groups.end(), known))
+                model_.groups[id] = blended(layers, model_, name_);
+            else
+                others_.insert(id); // unknown layers only: no colour hides the material
+        }
         for (const auto& [id, object] : model_.objects) check(id, object);
         return std::move(model_);
     }
@@ -67,8 +77,12 @@ class ModelReader {
             object_->components.push_back(use(e));
         else if (e.name == "item")
             item(e);
-        else if (e.name == "basematerials" || e.name == "colorgroup")
+        else if (e.name == "basematerials" || e.name == "colorgroup" || e.name == "texture2dgroup")
             group(e);
+        else if (e.name == "texture2d")
+            texture(e);
+        else if (e.name == "tex2coord")
+            group_->points.push_back({static_cast<float>(real(e, "u")), static_cast<float>(real(e, "v"))});
         else if (e.name == "base")
             base(e);
         else if (e.name == "multiproperties")
@@ -186,11 +200,12 @@ class ModelReader {
             {"object", "components"},
             {"components", "component"},
             {"model", "build"},
-            {"build", "item"}};
+            {"build", "item"},
+            {"multiproperties", "multi"}}; // without its prefix in samples of the 3MF Consortium
         static constexpr std::pair<std::string_view, std::string_view> colours[] = {
-            {"resources", "colorgroup"},
-            {"colorgroup", "color"},
-            {"resources", "multiproperties"},
+            {"resources", "colorgroup"},     {"colorgroup", "color"},
+            {"resources", "texture2d"},      {"resources", "texture2dgroup"},
+            {"texture2dgroup", "tex2coord"}, {"resources", "multiproperties"},
             {"multiproperties", "multi"}};
         const std::pair here(parent, e.name);
         if (e.space == material_space)
@@ -214,12 +229,12 @@ class ModelReader {
         }
     }
 
-    /// Keeps metadata, except those that describe the file, and those of programs, whose names have a prefix.
+    /// Keeps metadata, except those that describe the file. Names with a prefix are settings of programs.
     void metadata(const Element& e) {
         const std::string_view name = need(e, "name");
         if (std::find(std::begin(metadata_names), std::end(metadata_names), name) != std::end(metadata_names))
             model_.metadata.emplace_back(name, "");
-        else if (name != "Application" && name != "ModificationDate" && name.find(':') == name.npos)
+        else if (name != "Application" && name != "ModificationDate")
             ++model_.skipped[fmt::format("metadata {}", in_quotes(name))];
         reads_metadata_ = !model_.metadata.empty() && model_.metadata.back().first == name;
     }
@@ -292,6 +307,18 @@ class ModelReader {
         claim(e, id, false);
         group_ = &at->second;
         group_->materials = e.name == "basematerials";
+        if (e.name == "texture2dgroup") group_->texture = natural(e, "texid");
+    }
+    void texture(const Element& e) {
+        const std::uint32_t id = natural(e, "id");
+        claim(e, id, false);
+        TextureImageFile& texture = model_.textures[id];
+        texture.path = need(e, "path");
+        const auto style = [&](const char* attribute) { return e.find(attribute).value_or("wrap"); };
+        texture.clamp = style("tilestyleu") == "clamp" && style("tilestylev") == "clamp";
+        for (const char* attribute : {"tilestyleu", "tilestylev"})
+            if (style(attribute) != "wrap" && !texture.clamp)
+                ++model_.skipped[fmt::format("{} {}", attribute, style(attribute))];
     }
     void base(const Element& e) {
         group_->names.emplace_back(e.find("name").value_or(""));
@@ -341,10 +368,10 @@ class ModelReader {
             return;
         }
         for (const std::uint32_t index : p.index)
-            if (index != none && index >= group->second.colours.size())
+            if (index != none && index >= group->second.size())
                 malformed(name_, 0, "E-3MF",
                           fmt::format("object {} refers to property {} of group {}, which has {}", id, index,
-                                      group->first, group->second.colours.size()));
+                                      group->first, group->second.size()));
     }
 
     std::string name_; ///< shown in messages: "a.3mf/3D/3dmodel.model"

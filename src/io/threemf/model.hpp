@@ -55,10 +55,20 @@ struct Object {
     std::vector<Use> components;
 };
 
+struct TextureImageFile {
+    std::string path; ///< of the image in the archive
+    bool clamp = false;
+};
+
 struct Group {
-    bool materials = false;         ///< true for named materials, false for colours
+    bool materials = false;         ///< true for named materials, false for colours and textures
     std::vector<std::string> names; ///< names of materials
-    std::vector<Colour> colours;
+    std::vector<Colour> colours;    ///< of layers with a texture: multiplied by it
+    std::uint32_t texture = none;
+    std::vector<std::array<float, 2>> points; ///< of the texture, with v from the bottom
+
+    bool textured() const { return texture != none; }
+    std::size_t size() const { return textured() ? points.size() : colours.size(); }
 };
 
 /// One XML part of the archive.
@@ -66,6 +76,7 @@ struct Model {
     Unit unit = Unit::mm;
     std::map<std::uint32_t, Object> objects;
     std::map<std::uint32_t, Group> groups;
+    std::map<std::uint32_t, TextureImageFile> textures;
     std::vector<Use> items;
     std::map<std::string, std::size_t> skipped;                ///< unsupported elements and their counts
     std::vector<std::pair<std::string, std::string>> metadata; ///< names and texts, without those of programs

@@ -5,8 +5,12 @@
 #include "base/text/words.hpp"
 #include "geometry/render/srgb.hpp"
 #include "io/attributes.hpp"
+#include "io/flatten.hpp"
+#include "io/images/image_files.hpp"
 #include "io/material_document.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/text.hpp"
+#include "io/threemf/corner_looks.hpp"
 #include "io/threemf/model.hpp"
 #include "io/threemf/slicer.hpp"
 #include "io/threemf/zip.hpp"
@@ -70,12 +74,16 @@ class SceneMaker {
             place_items(items);
         }
         keep_metadata(main);
+        images_ = document_.images();
         if (!document_.empty()) scene_.documents.push_back(document_.finish());
         warn_of_types();
         warn_of_faults();
         warn_of_skipped();
         return std::move(scene_);
     }
+
+    /// The images of the textures, after make().
+    const std::vector<NamedImage>& images() const { return images_; }
 
   private:
     const Model& model(const std::string& path) {
@@ -171,45 +179,50 @@ class SceneMaker {
                                              : Json{{"extras", {{part_number_key, object.part_number}}}}.dump(
                                                    -1, ' ', false, Json::error_handler_t::replace);
         if (object.properties.group == none && object.triangles.empty()) {
-            primitive(mesh, none, false);
+            primitive(mesh, none, {});
             finish_primitives(mesh, {});
             return mesh;
         }
         const Model& there = model(id.path);
-        std::vector<std::uint64_t> colours(mesh.corners.size(), no_key);
+        CornerLooks looks(mesh.corners.size());
         std::vector<std::uint32_t> primitives;
-        bool coloured = false;
+        primitives.reserve(mesh.face_count());
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
             Properties p = object.triangles.empty() ? object.properties : object.triangles[f];
             if (p.index[0] == none) p = object.properties;
             if (p.group == none) p.group = object.properties.group;
             const auto group = there.groups.find(p.group);
-            const bool known = group != there.groups.end();
-            const bool colours_count = known && !group->second.materials;
-            primitives.push_back(primitive(
-                mesh, known && !colours_count ? material(id.path, p.group, p.index[0], group->second) : none,
-                colours_count));
-            for (std::size_t k = 0; colours_count && k < 3; ++k) {
-                const Colour& c = group->second.colours[p.index.at(k)];
-                colours[3 * f + k] = std::uint64_t{c[0]} | c[1] << 8 | c[2] << 16 | std::uint64_t{c[3]} << 24;
-                coloured = true;
+            if (group == there.groups.end()) {
+                primitives.push_back(primitive(mesh, none, {}));
+                continue;
             }
+            const Group& from = group->second;
+            const Index own = from.textured()  ? texture(id.path, from.texture, there)
+                              : from.materials ? material(id.path, p.group, p.index[0], from)
+                                               : none;
+            const Kinds kinds{!from.materials && !from.colours.empty(), from.textured() && own != none};
+            primitives.push_back(primitive(mesh, own, kinds));
+            for (std::size_t k = 0; k < 3; ++k) looks.set(3 * f + k, from, p.index.at(k), kinds);
         }
         if (mesh.primitives.size() == 1)
-            mesh.primitives[0].attributes.clear(); // all triangles have colours, or none has
+            mesh.primitives[0].attributes.clear(); // all triangles have the same attributes
         finish_primitives(mesh, std::move(primitives));
-        if (coloured) add_colours(mesh, colours);
+        looks.add_to(mesh);
         return mesh;
     }
 
     /// The index of the primitive with this material in the mesh, added if new. Triangles without colours do
     /// not list them, so that white does not hide their material.
-    std::uint32_t primitive(Mesh& mesh, Index material, bool coloured) const {
-        for (std::size_t p = mesh.primitives.size(); p-- > 0;)
-            if (mesh.primitives[p].material == material && mesh.primitives[p].lists("COLOR_0") == coloured)
+    std::uint32_t primitive(Mesh& mesh, Index material, const Kinds& kinds) const {
+        for (std::size_t p = mesh.primitives.size(); p-- > 0;) {
+            const Primitive& known = mesh.primitives[p];
+            if (known.material == material && known.lists("COLOR_0") == kinds.coloured &&
+                known.lists("TEXCOORD_0") == kinds.textured)
                 return static_cast<std::uint32_t>(p);
+        }
         std::vector<std::string> attributes{"POSITION"};
-        if (coloured) attributes.emplace_back("COLOR_0");
+        if (kinds.coloured) attributes.emplace_back("COLOR_0");
+        if (kinds.textured) attributes.emplace_back("TEXCOORD_0");
         mesh.primitives.push_back({material, std::move(attributes), extras_});
         return static_cast<std::uint32_t>(mesh.primitives.size() - 1);
     }
@@ -223,22 +236,6 @@ class SceneMaker {
                 {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
     }
 
-    /// Corners with different colours at a vertex become separate wedges. Triangles without a colour become
-    /// white.
-    static void add_colours(Mesh& mesh, std::vector<std::uint64_t> colours) {
-        constexpr std::uint64_t white = 0xffffffff;
-        for (std::uint64_t& colour : colours)
-            if (colour == no_key) colour = white;
-        Wedges wedges = make_wedges(mesh.positions.size(), std::move(mesh.corners), colours);
-        mesh.corners = std::move(wedges.corners);
-        mesh.wedge_vertex = std::move(wedges.wedge_vertex);
-        std::vector<std::uint8_t> bytes;
-        for (const std::uint64_t key : wedges.keys)
-            for (int c = 0; c < 4; ++c)
-                bytes.push_back(static_cast<std::uint8_t>((key == no_key ? white : key) >> 8 * c));
-        mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 4, true, std::move(bytes)});
-    }
-
     Index material(const std::string& path, std::uint32_t group, std::uint32_t index, const Group& from) {
         const auto [at, fresh] = materials_.try_emplace({path, group, index}, none);
         if (!fresh) return at->second;
@@ -248,6 +245,35 @@ class SceneMaker {
                       {{"baseColorFactor", {linear_of(c[0]), linear_of(c[1]), linear_of(c[2]), c[3] / 255.0}},
                        {"metallicFactor", 0}}}};
         if (c[3] < 255) json["alphaMode"] = "BLEND";
+        at->second = static_cast<Index>(scene_.materials.size());
+        scene_.materials.push_back(document_.add(std::move(json), 0));
+        return at->second;
+    }
+
+    /// The material with the image of a texture; none, with a warning, if the image cannot be kept.
+    Index texture(const std::string& path, std::uint32_t id, const Model& there) {
+        const auto [at, fresh] = materials_.try_emplace({path, id, none}, none);
+        const auto found = there.textures.find(id);
+        if (!fresh || found == there.textures.end()) return at->second;
+        const TextureImageFile& texture = found->second;
+        const auto bytes = archive_.file(texture.path);
+        const std::string type = bytes ? media_type(*bytes) : "";
+        if (type != "image/png" && type != "image/jpeg") {
+            log_.warnings.push_back(
+                {Severity::warning, "W-IMAGE",
+                 fmt::format("the texture '{}' {}", texture.path,
+                             bytes ? "is neither PNG nor JPEG, and is not kept" : "is not in the archive"),
+                 file_mark(name_), "export the file again with PNG or JPEG images"});
+            return none;
+        }
+        const std::filesystem::path file = std::filesystem::path(texture.path).filename();
+        Json json = {
+            {"name", file.stem().string()},
+            {"pbrMetallicRoughness",
+             {{"baseColorTexture", {{"index", document_.texture(file, *bytes, texture.clamp, false)}}},
+              {"metallicFactor", 0}}}};
+        if (const auto channels = image_colours(*bytes); channels && channels->alpha)
+            json["alphaMode"] = "BLEND";
         at->second = static_cast<Index>(scene_.materials.size());
         scene_.materials.push_back(document_.add(std::move(json), 0));
         return at->second;
@@ -294,6 +320,7 @@ class SceneMaker {
     }
 
     void warn_of_faults() {
+        faults_.insert(faults_.end(), volumes_.faults().begin(), volumes_.faults().end());
         for (const auto& [path, model] : models_)
             for (const std::string& fault : model.faults) faults_.push_back(fault);
         constexpr std::size_t most = 8;
@@ -309,11 +336,24 @@ class SceneMaker {
         std::vector<std::string> words;
         words.reserve(all.size());
         for (const auto& [what, count] : all) words.push_back(fmt::format("{} ({})", what, count));
+        if (const auto files = other_files(); !files.empty()) words.push_back("the files " + some_of(files));
         if (!words.empty())
             log_.warnings.push_back(
                 {Severity::warning, "W-SKIPPED",
                  fmt::format("elements that cannot be kept are skipped: {}", fmt::join(words, ", ")),
                  file_mark(name_), ""});
+    }
+
+    /// Files of the archive that are not read, such as the settings of slicers. Pictures are previews.
+    std::vector<std::string> other_files() const {
+        std::vector<std::string> files = archive_.paths();
+        std::erase_if(files, [](const std::string& path) {
+            constexpr std::string_view known[] = {"/", ".rels", ".model", ".png", ".jpg", ".jpeg"};
+            return path == "[content_types].xml" ||
+                   std::any_of(std::begin(known), std::end(known),
+                               [&](std::string_view end) { return path.ends_with(end); });
+        });
+        return files;
     }
 
     struct MaterialId {
@@ -328,6 +368,7 @@ class SceneMaker {
     Archive archive_;
     SlicerVolumes volumes_;
     MaterialDocument document_;
+    std::vector<NamedImage> images_;
     Scene scene_;
     std::map<std::string, Model> models_;
     std::string main_;                           ///< the path of the main model
@@ -351,11 +392,24 @@ int sniff(Span bytes) {
     return tail.find(".model") != std::string_view::npos ? 2 : 1;
 }
 
+/// The images of a file, and whether it has materials. Only reading the whole file finds them.
+std::pair<std::vector<NamedImage>, bool> materials_of(const std::filesystem::path& path) {
+    const Input input = Input::open(path);
+    const ReadSettings settings;
+    ReadLog ignored; // reading the file repeats these warnings
+    SceneMaker maker(input, settings, ignored);
+    const bool has_materials = !maker.make().materials.empty();
+    return {maker.images(), has_materials};
+}
+
 /// Reads only the unit, which is at the start of the model.
 void peek(const Input& input, FileHeader& header) {
     Archive archive(input.bytes(), input.name());
     const std::string path = main_model(archive, input.name()).path;
     if (const auto xml = archive.file(path)) header.unit = unit_of_model(*xml, input.name(), path);
+    if (input.path().empty()) return;
+    header.images = [file = input.path()] { return materials_of(file).first; };
+    header.has_materials = [file = input.path()] { return materials_of(file).second; };
 }
 
 } // namespace
@@ -374,10 +428,10 @@ const RegisterCodec codec({
     .can = {.normals = false,
             .transforms = true,
             .full_precision = true,
-            .attributes = "colours at corners or materials, none else"},
+            .attributes = "colours at corners or materials, none else; textures are only read"},
     .sniff = sniff,
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
     .peek = peek,
 });
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fmt/format.h>
 
 namespace facetmill::io::threemf {
 
@@ -45,7 +46,14 @@ void keep_unmarked(Object& object, const std::vector<bool>& marked) {
 
 SlicerVolumes::SlicerVolumes(Archive& archive, const std::string& name) {
     const auto read = [&](const char* path, auto reader) {
-        if (const auto xml = archive.file(path)) (this->*reader)(*xml, name + path);
+        try {
+            if (const auto xml = archive.file(path)) (this->*reader)(*xml, name + path);
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::malformed) throw;
+            faults_.push_back(fmt::format("the slicer's settings in '{}' cannot be read, so volumes that are "
+                                          "not printed are read as parts: {}",
+                                          path, e.what()));
+        }
     };
     read("/Metadata/Slic3r_PE_model.config", &SlicerVolumes::read_ranges);
     read("/Metadata/model_settings.config", &SlicerVolumes::read_components);

@@ -9,8 +9,7 @@ namespace facetmill::io::threemf {
 
 class SlicerVolumes {
   public:
-    /// Reads the settings files of the archive, if there are any. name: of the archive, for messages. Throws
-    /// malformed (E-3MF, E-ZIP).
+    /// Reads the settings files of the archive, if there are any. name: of the archive, for messages.
     SlicerVolumes(Archive& archive, const std::string& name);
 
     /// Removes the triangles that are not printed, but never all of an object. left_out: the counts of
@@ -20,6 +19,9 @@ class SlicerVolumes {
 
     /// The purpose of a component that is not printed; null if it is printed.
     [[nodiscard]] const std::string* purpose(std::uint32_t object, std::uint32_t component) const;
+
+    /// Messages about files that cannot be read, which say nothing about the geometry.
+    [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
 
   private:
     struct Range {
@@ -31,6 +33,7 @@ class SlicerVolumes {
 
     std::map<std::uint32_t, std::vector<Range>> ranges_; ///< by object
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> components_;
+    std::vector<std::string> faults_;
 };
 
 } // namespace facetmill::io::threemf

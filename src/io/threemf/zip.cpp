@@ -108,6 +108,13 @@ void Archive::take_zip64(Entry& entry, std::uint64_t at, std::uint64_t end) cons
     }
 }
 
+std::vector<std::string> Archive::paths() const {
+    std::vector<std::string> all;
+    all.reserve(entries_.size());
+    for (const auto& [path, entry] : entries_) all.push_back(path);
+    return all;
+}
+
 std::optional<Bytes> Archive::file(const std::string& path) {
     const auto found = entries_.find(lower_case(path.starts_with('/') ? path.substr(1) : path));
     if (found == entries_.end()) return {};

@@ -18,6 +18,8 @@ class Archive {
     /// and other compression methods. Throws a limit error (E-SIZE) if the total unpacked size is
     /// implausible for a mesh (see unpacked()).
     std::optional<Bytes> file(const std::string& path);
+    /// The paths of all entries in lower case, sorted.
+    [[nodiscard]] std::vector<std::string> paths() const;
 
   private:
     struct Entry {

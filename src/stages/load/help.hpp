@@ -25,6 +25,12 @@ The option `lines` turns lines into tubes.
 Consecutive lines become one closed tube with mitred corners, which ends where a line ends or more
 than two lines meet.
 
+Colours (COLOR_0) are linear in a scene, as in glTF.
+PLY, OFF, OBJ, STL, 3MF and Draco files hold sRGB colours: load makes them linear, and write makes them
+sRGB again.
+Bytes become 16 bits, because 8 bits of linear light cannot hold all dark tones.
+Colours of materials in an .mtl (Kd, Ke) are linear, as Blender reads and writes them.
+
 Broken meshes are loaded unchanged.
 A malformed file is refused, and the error gives the line or byte.
 Files with coordinates that are not finite are also refused, unless not_finite: drop removes these

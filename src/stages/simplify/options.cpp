@@ -149,8 +149,7 @@ void declare_targets(Declare<SimplifyOptions>& d) {
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
              "The largest deviation from the input, measured in both directions; of skinned and morphed "
-             "parts, in the rest "
-             "pose (W-REST-POSE).")
+             "parts, in the rest pose. W-REST-POSE warns when one of at most 32 sampled poses deviates more.")
         .also_called("error tolerance threshold epsilon deviation max_deviation")
         .above(0);
     declare_share(d);

@@ -5,6 +5,7 @@
 #include "geometry/edit/moved.hpp"
 #include "io/gltf/gltf.hpp"
 #include "stage/bind_pose.hpp"
+#include "stages/simplify/posed_deviation.hpp"
 
 #include <fmt/format.h>
 
@@ -124,6 +125,21 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
         "of part");
 }
 
+namespace {
+
+void warn_of_poses(const Part& part, const PosedDeviation& posed, std::optional<double> max_error,
+                   Context& context) {
+    if (!max_error || posed.maximum <= *max_error) return;
+    context.warn(
+        "W-REST-POSE",
+        fmt::format("simplify: part '{}' deviates by {:.6g} ({}) in {}, above max_error ({:.6g}), which "
+                    "bounds only the rest pose",
+                    part.name, posed.maximum, percentage(posed.percent), posed.pose, *max_error),
+        "use a smaller max_error, or simplify: 50%, a ratio, for parts that move");
+}
+
+} // namespace
+
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
     const LargestPose pose(scene); // an error is seen at its largest
     const SimplifyPartsSettings settings = settings_in(scene, pose, o, context);
@@ -132,6 +148,8 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     std::vector<Limited> limited;
     std::vector<Part> coarser;
     std::vector<std::string> moving; // parts whose poses max_error does not bound
+    const bool measures = o.measure || o.certify || o.max_error;
+    PosedParts posed(scene, measures ? settings.selected : std::vector<std::uint8_t>(scene.parts.size()));
     // An entry takes a kilobyte, so growing the list would copy several times as much.
     report.parts.reserve(scene.parts.size() * (o.lods ? o.lods->ratios.size() : 1));
     const auto take = [&](std::size_t number, std::vector<SimplifiedPart> levels) {
@@ -145,7 +163,11 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
             part.mesh = std::exchange(r.mesh, {});
             context.attribute_changes(part, r.changes);
             warn_of_stop(part, r, {asks_for_less(o, all, i), has_target}, context);
-            if (o.max_error && r.faces_after < r.faces_before && has_poses(part)) moving.push_back(part.name);
+            if (r.faces_after < r.faces_before) levels[i].posed = posed.compare(scene, number, part);
+            if (levels[i].posed)
+                warn_of_poses(part, *levels[i].posed, settings.all.max_error, context);
+            else if (o.max_error && r.faces_after < r.faces_before && has_poses(part))
+                moving.push_back(part.name);
             if (r.stop == Stop::max_quadric_error)
                 limited.push_back({part.name, r.faces_before, r.faces_after});
             if (levels[i].surface && !o.lods && !pose.enlarges(number)) // lods add parts to the scene

@@ -102,6 +102,15 @@ void declare_topologies(DeclareFields<SimplifiedPart::Topology>& d) {
     d.object("after", &SimplifiedPart::Topology::after, "After the stage.", declare_topology);
 }
 
+void declare_posed(DeclareFields<PosedDeviation>& d) {
+    d.field("poses", &PosedDeviation::poses, "The number of compared poses.");
+    d.field("maximum", &PosedDeviation::maximum, "The largest distance from either surface to the other.")
+        .unit("scene units");
+    d.field("percent", &PosedDeviation::percent,
+            "The maximum in percent of the diagonal of the input in that pose.");
+    d.field("pose", &PosedDeviation::pose, "The pose with the maximum.");
+}
+
 void declare_size(DeclareFields<SimplifiedPart::Size>& d) {
     d.field("area", &SimplifiedPart::Size::area, "The surface area.").unit("square scene units");
     d.field("volume", &SimplifiedPart::Size::volume, "The enclosed volume.")
@@ -204,6 +213,11 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
     d.object("deviation", &SimplifiedPart::deviation, "The deviation from the input of this stage.",
              declare_deviation_fields)
         .only_when("measure or certify is on");
+    d.object(
+         "posed_deviation", &SimplifiedPart::posed,
+         "The deviation in at most 32 poses: keys of all animations, evenly chosen, and morph targets alone.",
+         declare_posed)
+        .only_when("the part has a skin or morph targets, and its deviation is measured");
 }
 
 // --- lines for the terminal
@@ -253,7 +267,10 @@ std::string line_of(const SimplifiedPart& part) {
     const SimplifyResult& r = part.result;
     const std::string line =
         part.part + ": " + counts_text(r.faces_before, r.faces_after) + stop_text(r.stop);
-    return is_measured(part) ? line + "; " + deviation_text(*part.deviation) : line;
+    const std::string text = is_measured(part) ? line + "; " + deviation_text(*part.deviation) : line;
+    if (!part.posed || !std::isfinite(part.posed->percent)) return text;
+    return fmt::format("{}; {} in the worst of {} ({})", text, percentage(part.posed->percent),
+                       counted(part.posed->poses, "pose"), part.posed->pose);
 }
 
 std::vector<std::string> lines_of(const SimplifyReport& report) {

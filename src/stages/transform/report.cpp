@@ -52,6 +52,11 @@ void warn_of_conversion(const io::Conversion& converted, const TransformOptions&
             fmt::format("transform: the scene has no up axis, so nothing was rotated; the up axis is now {}",
                         to_string(o.up)),
             "give the up axis when you load the file (load: {up: z})");
+    if (converted.keys_kept) warn_of_kept_keys(context);
+}
+
+void warn_of_kept_keys(Context& context) {
+    context.warn("W-TRANSFORM", fmt::format("transform: {}", io::keys_kept_message), io::keys_kept_hint);
 }
 
 void warn_of_kept_node(const std::string& part, const char* reason, Context& context) {

@@ -17,6 +17,7 @@ struct TransformReport {
 void declare_transform_report(DeclareFields<TransformReport>& d);
 
 /// Warns of guesses in the conversion of units or the up axis.
+void warn_of_kept_keys(Context& context);
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context);
 /// Warns that a part is not baked. reason: "is animated".
 void warn_of_kept_node(const std::string& part, const char* reason, Context& context);

@@ -55,6 +55,7 @@ class Mover {
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if ((o_.ground || orientation) && !box().empty()) move(moved(drop()));
         if (o_.bake) bake();
+        if (keys_kept_) warn_of_kept_keys(context_);
         return {all_, converted.factor, fit, orientation, to_string(scene_.unit), to_string(scene_.up)};
     }
 
@@ -142,7 +143,7 @@ class Mover {
             lengths[i] = {part.skinned ? growth : 1, growth};
         }
         io::scale_material_lengths(scene_, lengths);
-        io::move_cameras_and_lights(scene_, moved, t);
+        keys_kept_ = !io::move_cameras_and_lights(scene_, moved, t) || keys_kept_;
     }
 
     /// Parts whose node has another purpose keep it: an animation would move baked points about another
@@ -169,6 +170,7 @@ class Mover {
     Context& context_;
     BoxOf box_;
     Transform all_;
+    bool keys_kept_ = false;
 };
 
 Scene run(Scene scene, const TransformOptions& o, Context& context, TransformReport& report) {

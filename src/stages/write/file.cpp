@@ -143,11 +143,9 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
             "give unit and up axis when you load the mesh: load: {path: ..., unit: mm, up: z}, or -D unit=mm "
             "-D "
             "up=z for a built-in pipeline");
-    if (scene.parts.empty() && (done.factor != 1 || done.turned))
-        context.warn("W-TRANSFORM",
-                     fmt::format("the scene has no meshes: the nodes in '{}' keep the numbers of the input",
-                                 o.path.text),
-                     "load it without unit and up");
+    if (done.keys_kept)
+        context.warn("W-TRANSFORM", fmt::format("'{}': {}", o.path.text, io::keys_kept_message),
+                     io::keys_kept_hint);
     if (seen != target.up)
         context.warn(
             "W-UP",

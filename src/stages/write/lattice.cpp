@@ -2,6 +2,7 @@
 
 #include "base/math/numbers.hpp"
 #include "base/math/portable_math.hpp"
+#include "base/math/whole_number.hpp"
 #include "mesh/first_of_equal.hpp"
 #include "mesh/position_hash.hpp"
 #include "parallel/parallel.hpp"
@@ -72,7 +73,7 @@ std::size_t places_on(const Mesh& mesh, const io::Lattice& lattice) {
     std::vector<Place> places(mesh.vertex_count());
     parallel_for(places.size(), [&](std::size_t v) {
         for (std::size_t c = 0; c < 3; ++c)
-            places[v][c] = static_cast<std::int64_t>(
+            places[v][c] = whole_number<std::int64_t>(
                 std::floor((mesh.positions[v][c] - lattice.origin[c]) / lattice.step + 0.5));
     });
     const auto hash = [&](Index v) {

@@ -4,6 +4,7 @@
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/cells.hpp"
+#include "support/colours.hpp"
 #include "support/failure.hpp"
 #include "support/meshes.hpp"
 #include "support/surface.hpp"
@@ -108,7 +109,8 @@ TEST_CASE("cells carry the attributes of vertices", "[cells]") {
     std::vector<std::uint8_t> colours;
     for (const Vec3& p : mesh.positions)
         for (std::size_t i = 0; i < 3; ++i) colours.push_back(static_cast<std::uint8_t>(127 + 100 * p[i]));
-    mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 3, true, colours});
+    mesh.attributes.push_back(
+        {"COLOR_0", Domain::wedge, Role::colour, 3, true, test::linear_words(colours, 3)});
     const auto path = as_file(folder, "m.ply", mesh);
     const auto partition = partition_of(path, 200);
     const Mesh whole = test::rejoined(*partition);
@@ -116,9 +118,8 @@ TEST_CASE("cells carry the attributes of vertices", "[cells]") {
     REQUIRE(got);
     for (Index v = 0; v < whole.vertex_count(); ++v)
         for (int i = 0; i < 3; ++i)
-            CHECK(got->value(v, i) ==
-                  static_cast<std::uint8_t>(127 + 100 * whole.positions[v][static_cast<std::size_t>(i)]) /
-                      255.0);
+            CHECK(test::srgb_byte(*got, v, i) ==
+                  static_cast<std::uint8_t>(127 + 100 * whole.positions[v][static_cast<std::size_t>(i)]));
 }
 
 TEST_CASE("polygons become the triangles that they are in memory", "[cells]") {

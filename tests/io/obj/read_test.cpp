@@ -1,5 +1,6 @@
 // The parts of an OBJ, and their names.
 #include "support/catch.hpp"
+#include "support/colours.hpp"
 #include "support/gltf.hpp"
 
 #include <array>
@@ -80,11 +81,11 @@ TEST_CASE("colours of an OBJ count to 1 or to 255", "[io][obj]") {
     };
     const std::string bytes = "v 0 0 0 255 0 0\nv 1 0 0 0 51 0\nv 0 1 0 1 0 0\n";
     CHECK(colour(bytes, 0) == std::array{1.0, 0.0, 0.0});
-    CHECK(colour(bytes, 1)[1] == Approx(0.2));
-    CHECK(colour(bytes, 2)[0] == Approx(1.0 / 255));
+    CHECK(colour(bytes, 1)[1] == Approx(test::linear_light(0.2)));
+    CHECK(colour(bytes, 2)[0] == Approx(test::linear_light(1.0 / 255)));
     const std::string fractions = "v 0 0 0 1 0 0\nv 1 0 0 0 0.2 0\nv 0 1 0 1 0 0\n";
     CHECK(colour(fractions, 0) == std::array{1.0, 0.0, 0.0});
-    CHECK(colour(fractions, 1)[1] == Approx(0.2));
+    CHECK(colour(fractions, 1)[1] == Approx(test::linear_light(0.2)));
     CHECK(colour("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\n", 1)[1] == 1);
 }
 

@@ -1,6 +1,7 @@
 // Colours whose type does not tell their range, and splats.
 #include "support/catch.hpp"
 
+#include "geometry/render/srgb.hpp"
 #include "io/codec.hpp"
 #include "support/gltf.hpp"
 
@@ -14,7 +15,7 @@ Scene read(const std::string& text, io::ReadLog& log) {
     return io::read_scene(io::Input::of("a.ply", test::to_bytes(text)), {}, log);
 }
 
-/// The colours of two points.
+/// The colours of two points, as fractions of sRGB.
 std::vector<double> colours(const std::string& type, const std::string& first, const std::string& second) {
     io::ReadLog log;
     const Scene scene =
@@ -28,7 +29,7 @@ std::vector<double> colours(const std::string& type, const std::string& first, c
     REQUIRE(a);
     std::vector<double> all;
     for (Index w = 0; w < 2; ++w)
-        for (int c = 0; c < 3; ++c) all.push_back(a->value(w, c));
+        for (int c = 0; c < 3; ++c) all.push_back(srgb_fraction(a->value(w, c)));
     return all;
 }
 

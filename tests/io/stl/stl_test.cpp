@@ -1,6 +1,7 @@
 #include "io/attributes.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/colours.hpp"
 #include "support/failure.hpp"
 #include "support/gltf.hpp"
 
@@ -26,7 +27,10 @@ std::vector<std::uint8_t> colours_of_faces(const Scene& scene) {
     REQUIRE(a);
     CHECK(a->role == Role::colour);
     CHECK(a->components == 3);
-    return std::get<std::vector<std::uint8_t>>(a->data);
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t f = 0; f < a->size(); ++f)
+        for (int c = 0; c < 3; ++c) bytes.push_back(static_cast<std::uint8_t>(srgb_byte(*a, f, c)));
+    return bytes;
 }
 
 std::vector<std::string> ids_of(const io::ReadLog& log) {

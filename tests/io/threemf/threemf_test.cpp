@@ -6,6 +6,7 @@
 #include "io/threemf/xml.hpp"
 #include "io/threemf/zip.hpp"
 #include "mesh/shapes.hpp"
+#include "support/colours.hpp"
 #include "support/failure.hpp"
 #include "support/mutations.hpp"
 
@@ -71,14 +72,12 @@ Loaded trip(const Scene& scene, io::WriteSettings settings = {}) {
     return loaded;
 }
 
-/// The face's colour at a corner, as bytes.
+/// The face's colour at a corner, as bytes of sRGB.
 std::array<int, 4> colour_at(const Mesh& mesh, Index corner) {
     const Attribute* a = mesh.find("COLOR_0", Domain::wedge);
     REQUIRE(a);
     std::array<int, 4> c{};
-    for (int k = 0; k < 4; ++k)
-        c.at(static_cast<std::size_t>(k)) =
-            static_cast<int>(std::lround(255 * a->value(mesh.corners[corner], k)));
+    for (int k = 0; k < 4; ++k) c.at(static_cast<std::size_t>(k)) = srgb_byte(*a, mesh.corners[corner], k);
     return c;
 }
 
@@ -104,7 +103,7 @@ TEST_CASE("3MF keeps units, parts, their places, materials and colours", "[io]")
     cone.name = "painted";
     cone.mesh = shapes::tetrahedron();
     cone.mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 3, true,
-                                    std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 7, 8, 9}});
+                                    linear_words({255, 0, 0, 0, 255, 0, 0, 0, 255, 7, 8, 9}, 3)});
     scene.parts.push_back(moved);
     const auto [back, log] = trip(scene);
     CHECK(log.warnings.empty());
@@ -326,7 +325,16 @@ TEST_CASE("volumes of slicers that are not printed are left out and named", "[io
         load(io::threemf::make_archive({file("3D/3dmodel.model", model(two, R"(<item objectid="1"/>)")),
                                         file("Metadata/Slic3r_PE_model.config", settings("ModelPart"))}));
     CHECK(all.scene.face_count() == 4);
-    CHECK(all.log.warnings.empty());
+    REQUIRE(all.log.warnings.size() == 1); // about the settings, which no format keeps
+    CHECK(all.log.warnings[0].message ==
+          "elements that cannot be kept are skipped: the files metadata/slic3r_pe_model.config");
+    const Loaded broken =
+        load(io::threemf::make_archive({file("3D/3dmodel.model", model(two, R"(<item objectid="1"/>)")),
+                                        file("Metadata/Slic3r_PE_model.config", "<config><object")}));
+    CHECK(broken.scene.face_count() == 4); // its geometry is sound
+    CHECK(broken.log.warnings.at(0).id == "W-3MF");
+    CHECK(broken.log.warnings.at(0).message.find(
+              "the slicer's settings in '/Metadata/Slic3r_PE_model.config' cannot be read") == 0);
     const std::string more = R"(<?xml version="1.0"?><config><object id="1">
 <volume firstid="2" lastid="3"><metadata type="volume" key="volume_type" value="NegativeVolume"/></volume></object>
 <object id="2"><metadata type="object" key="modifier" value="1"/></object></config>)";
@@ -395,6 +403,9 @@ TEST_CASE("3MF keeps its metadata and part numbers, and glTF gets them", "[io]")
             CHECK(glb.find(kept) != std::string_view::npos);
         }
     }
+    text.insert(text.find("<resources>"), R"(<metadata name="slic3rpe:Version3mf">1</metadata>)");
+    CHECK(load(archive(text)).log.warnings.at(0).message ==
+          "elements that cannot be kept are skipped: metadata 'slic3rpe:Version3mf' (1)");
     const Loaded other = load(archive(
         model(R"(<object id="1">)" + one_triangle + "</object>", R"(<item objectid="1" partnumber="B"/>)")));
     CHECK(other.log.warnings.at(0).message ==

@@ -28,6 +28,19 @@ void multiply(Json& owner, const char* key, double factor) {
     owner[key] = parse_real(fmt::format("{:.9g}", x)).value_or(x);
 }
 
+/// Whether KHR_animation_pointer drives numbers of cameras or lights.
+bool animates_numbers(const Json& document) {
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const JsonCursor channels = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const std::string pointer = animation_pointer(channels.at(c));
+            if (pointer.starts_with("/cameras/") || pointer.starts_with("/extensions/KHR_lights_punctual/"))
+                return true;
+        }
+    }
+    return false;
+}
+
 /// The scale of nodes does not apply to these numbers. The light of points falls with the square of the
 /// distance, so their intensity grows with it, and the scene looks the same.
 void scale_numbers(Json& document, double factor) {
@@ -150,8 +163,9 @@ void move_all(Scene& scene, int d, Json& document, const Transform& by, double g
 
 } // namespace
 
-void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by) {
-    if (by.identity()) return;
+bool move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const Transform& by) {
+    if (by.identity()) return true;
+    bool complete = true;
     for (std::size_t d = 0; d < scene.documents.size(); ++d) {
         const int number = static_cast<int>(d);
         bool all = true, any = false;
@@ -161,10 +175,10 @@ void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const
             any = true;
         }
         Json json = parse_document(scene.documents[d]->json);
-        const bool pointers = uses_extension(json, "KHR_animation_pointer"); // may drive their numbers
-        if (!all || pointers || count_of(json, "nodes") == 0) continue;
+        if (!all || count_of(json, "nodes") == 0) continue;
         const double growth = length_growth(by);
         if (growth != 1) scale_numbers(json, growth);
+        complete = complete && (growth == 1 || !animates_numbers(json));
         // Skins move with their parts, which differ from the document until they are written.
         if (!any || (count_of(json, "skins") == 0 && !animated_nodes(json).empty()))
             move_all(scene, number, json, by, growth);
@@ -174,6 +188,7 @@ void move_cameras_and_lights(Scene& scene, const std::vector<bool>& moved, const
         document->json = to_string(json);
         scene.documents[d] = std::move(document);
     }
+    return complete;
 }
 
 } // namespace facetmill::io

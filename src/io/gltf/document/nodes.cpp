@@ -154,15 +154,19 @@ std::vector<bool> shown_nodes(const Json& document) {
     return shown;
 }
 
+std::string animation_pointer(const JsonCursor& channel) {
+    const auto extensions = channel.at("target").find("extensions");
+    const auto pointer = extensions ? extensions->find("KHR_animation_pointer") : std::nullopt;
+    return pointer ? pointer->text_or("pointer", "") : "";
+}
+
 std::optional<AnimatedProperty> animated_property(const JsonCursor& channel, std::size_t nodes) {
     const JsonCursor target = channel.at("target");
     if (target.find("node")) {
         const std::size_t node = target.at("node").index(nodes, "node");
         return AnimatedProperty{node, target.text_or("path", "")};
     }
-    const auto extensions = target.find("extensions");
-    const auto pointer = extensions ? extensions->find("KHR_animation_pointer") : std::nullopt;
-    const std::string text = pointer ? pointer->text_or("pointer", "") : "";
+    const std::string text = animation_pointer(channel);
     constexpr std::string_view start = "/nodes/";
     std::size_t node = 0;
     if (!text.starts_with(start)) return {};

@@ -42,6 +42,9 @@ using Warn = std::function<void(const char*, std::string)>;
 /// The nodes whose translation, rotation or scale an animation drives, also by KHR_animation_pointer.
 [[nodiscard]] std::set<std::size_t> animated_nodes(const Json& document);
 
+/// The target of a channel of KHR_animation_pointer: "/cameras/0/perspective/yfov". Empty for other channels.
+[[nodiscard]] std::string animation_pointer(const JsonCursor& channel);
+
 /// A property that a channel of an animation drives: "scale" or, with KHR_animation_pointer, another one.
 struct AnimatedProperty {
     std::size_t node;

@@ -4,6 +4,7 @@
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/write_options.hpp"
 
 #include <algorithm>
@@ -193,8 +194,8 @@ const RegisterCodec drc({
     .can =
         {.points = true, .options = {draco_option()}, .always_draco = true, .attributes = "all at vertices"},
     .sniff = [](Span bytes) { return is_draco(bytes) ? 2 : 0; },
-    .read = read,
-    .write = write,
+    .read = with_linear_colours(read),
+    .write = with_srgb_colours(write),
 });
 
 } // namespace

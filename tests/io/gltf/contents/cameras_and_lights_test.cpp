@@ -103,6 +103,33 @@ TEST_CASE("animations play around the place to which a scene has moved", "[io]")
     check_near(at["seat"], {0, 4, 7});
 }
 
+TEST_CASE("cameras move although a pointer animates one of their lengths, which is named", "[io]") {
+    const auto scene = [](const char* pointer) {
+        return cube_with([&](Json& json) {
+            json["nodes"].push_back({{"name", "view"}, {"translation", {1, 2, 3}}, {"camera", 0}});
+            json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+            json["scenes"][0]["nodes"] = {0, 1};
+            json["extensionsUsed"] = {"KHR_animation_pointer"};
+            animate(json, {0});
+            Json& target = json["animations"][0]["channels"][0]["target"];
+            target = {{"path", "pointer"},
+                      {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+        });
+    };
+    constexpr const char* near = "/cameras/0/perspective/znear";
+    const auto moved = test::run_stage("transform", "{translate: [0, 0, 7]}", scene(near));
+    CHECK(moved.record.warnings.empty());
+    auto at = places(moved.scene);
+    check_near(at["view"], {1, 2, 10});
+    const auto scaled = test::run_stage("transform", "{scale: 2}", scene(near));
+    REQUIRE(scaled.record.warnings.size() == 1);
+    CHECK(scaled.record.warnings[0].id == "W-TRANSFORM");
+    at = places(scaled.scene);
+    check_near(at["view"], {2, 4, 6});
+    CHECK(test::run_stage("transform", "{scale: 2}", scene("/materials/0/alphaCutoff"))
+              .record.warnings.empty());
+}
+
 TEST_CASE("the centre of CESIUM_RTC moves the whole file", "[io]") {
     const Scene scene = cube_with([](Json& json) {
         json["extensions"]["CESIUM_RTC"]["center"] = {100, 200, 300}; // with z up
