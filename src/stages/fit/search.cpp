@@ -52,24 +52,26 @@ bool Search::better(const Candidate& a, const Candidate& b) const {
 Candidate Search::tried(const Choice& choice) {
     for (const Candidate& c : known_)
         if (c.choice == choice) return c;
-    const Scene made = trials_.with_images(trials_.simplified(choice.keep), choice.colours, choice.normals);
+    Scene made = trials_.simplified(choice.keep);
+    if (last_images_.empty() || choice.colours != last_colours_ || choice.normals != last_normals_) {
+        last_images_ = trials_.with_images(scene_, choice.colours, choice.normals).documents;
+        last_colours_ = choice.colours;
+        last_normals_ = choice.normals;
+    }
+    made.documents = last_images_; // simplify does not change them
     const TrialFile file = trials_.file(made, choice.bits, true);
     ++tried_;
     known_.push_back({choice, file.bytes, triangles_of(made), original_.difference(file.decoded)});
     return known_.back();
 }
 
-/// Images as sharp as the pictures keep the trials of shapes quick. Their reference has the same images.
-Scene Search::with_proxy(Scene scene) const {
-    const ImageChoice proxy{static_cast<std::size_t>(o_.pixels), 90};
-    const ImageSides sides = image_sides(scene);
-    return std::max(sides.colours, sides.normals) > proxy.side
-               ? trials_.with_images(std::move(scene), proxy, proxy)
-               : scene;
-}
-
 void Search::measure_ratios() {
-    const Scene whole = with_proxy(scene_);
+    // Images as sharp as the pictures keep the trials of shapes quick. Their reference has the same images.
+    const ImageChoice proxy{static_cast<std::size_t>(o_.pixels), 90};
+    const ImageSides sides = image_sides(scene_);
+    const bool large = std::max(sides.colours, sides.normals) > proxy.side;
+    const Scene whole = large ? trials_.with_images(scene_, proxy, proxy) : scene_;
+    proxies_ = whole.documents;
     const report::Likeness like(whole, static_cast<int>(o_.pixels));
     constexpr std::size_t levels = 14, fewest_triangles = 48;
     for (std::size_t level = 0; level < levels; ++level) {
@@ -77,7 +79,8 @@ void Search::measure_ratios() {
         // The first steps are short, because most files end up there.
         const double keep = level < 4 ? 1 - 0.2 * static_cast<double>(level)
                                       : std::ldexp(0.5, 3 - static_cast<int>(level)) * 1.2;
-        const Scene reduced = with_proxy(trials_.simplified(keep));
+        Scene reduced = trials_.simplified(keep);
+        reduced.documents = proxies_;
         const TrialFile file = trials_.file(reduced, {}, false);
         ++tried_;
         const MeasuredRatio now{keep, {without_images(file, reduced), like.difference(file.decoded)}};
@@ -90,16 +93,15 @@ void Search::measure_ratios() {
 std::vector<MeasuredBits> Search::measured_bits(const std::vector<int>& ladder, int Bits::*member,
                                                 const Scene& scene, const report::Likeness& like) {
     std::vector<MeasuredBits> all;
-    double whole = 0;
+    Cost finest;
     for (const int bits : ladder) {
         Bits choice;
         choice.*member = bits;
         const TrialFile file = trials_.file(scene, choice, false);
         ++tried_;
-        const double bytes = without_images(file, scene);
-        if (all.empty()) whole = bytes;
-        const MeasuredBits now{bits, 1 - bytes / whole, like.difference(file.decoded)};
-        all.push_back(now);
+        const Cost now{without_images(file, scene), like.difference(file.decoded)};
+        if (all.empty()) finest = now;
+        all.push_back({bits, 1 - now.bytes / finest.bytes, std::max(0.0, now.error - finest.error)});
         if (now.error > hopeless(o_)) break;
     }
     return all;
@@ -116,7 +118,8 @@ void Search::measure_bits() {
     double keep = 1;
     for (const MeasuredRatio& r : curves_.ratios)
         if (static_cast<double>(triangles_of(scene_)) * keep > enough_triangles) keep = r.keep;
-    const Scene reduced = with_proxy(trials_.simplified(keep));
+    Scene reduced = trials_.simplified(keep);
+    reduced.documents = proxies_;
     const report::Likeness like(reduced, static_cast<int>(o_.pixels));
     curves_.position = measured_bits({16, 14, 12, 11, 10, 9}, &Bits::position, reduced, like);
     if (has_attribute(scene_, "NORMAL"))

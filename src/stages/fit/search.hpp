@@ -29,7 +29,6 @@ class Search {
     [[nodiscard]] bool better(const Candidate& a, const Candidate& b) const;
 
   private:
-    [[nodiscard]] Scene with_proxy(Scene scene) const;
     /// The finest choice for images of a role with this longest side.
     [[nodiscard]] ImageChoice largest(std::size_t longest) const;
     void measure_ratios();
@@ -48,6 +47,9 @@ class Search {
     report::Likeness original_;
     Curves curves_;
     std::vector<Candidate> known_;
+    using Documents = std::vector<std::shared_ptr<const Document>>;
+    Documents proxies_, last_images_; ///< the documents of the scene with other images
+    ImageChoice last_colours_, last_normals_;
     std::size_t tried_ = 0;
     double correction_ = 1; ///< of the limit, because predictions err
 };
