@@ -2,7 +2,7 @@
 
 #include "base/text/glob.hpp"
 #include "base/text/words.hpp"
-#include "batch/batch.hpp"
+#include "batch/archives.hpp"
 #include "batch/table.hpp"
 #include "io/bytes.hpp"
 
@@ -60,6 +60,7 @@ class AssetFinder {
     std::vector<Asset> find() {
         for (const auto& pattern : sources_.patterns) add_pattern(pattern);
         for (const auto& list : sources_.lists) add_list(list);
+        for (const auto& archive : sources_.archives) add_archive(archive);
         if (!sources_.table.empty()) add_table();
         if (!missing_.empty()) throw Error(ErrorKind::missing, std::move(missing_));
         return std::move(assets_);
@@ -103,8 +104,28 @@ class AssetFinder {
 
     void add_file(const fs::path& file, const fs::path& base) {
         if (!seen_.insert(fs::absolute(file).lexically_normal()).second) return;
-        assets_.push_back(
-            {file.string(), file, mirrored(file, base), false, {{input_param, file.string()}}, {}, {}});
+        assets_.push_back({file.string(),
+                           file,
+                           mirrored(file, base),
+                           false,
+                           false,
+                           {{input_param, file.string()}},
+                           {},
+                           {}});
+    }
+
+    void add_archive(const std::string& archive) {
+        const fs::path folder = unpack_folder(sources_.output_dir, archive);
+        const auto meshes = unpack_archive(archive, folder);
+        if (meshes.empty())
+            missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' holds no meshes", archive),
+                                sources_.place(archive), "facetmill formats lists the formats of meshes"});
+        const std::string shown = archive == "-" ? "stdin" : archive;
+        for (const auto& mesh : meshes) {
+            add_file(folder / mesh, folder);
+            assets_.back().name = fmt::format("{}/{}", shown, mesh);
+            assets_.back().of_archive = true;
+        }
     }
 
     /// Adds names, one per line, or terminated by NUL as `find -print0` writes them.

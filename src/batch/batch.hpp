@@ -16,6 +16,7 @@ struct Asset {
     std::filesystem::path input;  ///< empty: a row without an input
     std::filesystem::path folder; ///< folder of its outputs, relative to the output folder
     bool of_table = false;
+    bool of_archive = false; ///< the input is an unpacked file; the name begins with its archive
     std::vector<std::pair<std::string, std::string>> defines; ///< params of this asset
     std::map<std::string, Mark> defined_at;                   ///< marks in the table, if they come from one
     std::map<std::string, Value> lists;                       ///< list values
@@ -25,6 +26,8 @@ struct Asset {
 struct Sources {
     std::vector<std::string> patterns; ///< --input: files or globs, each a value of the param `input`
     std::vector<std::string> lists;    ///< --inputs-from: files of names ("-": standard input)
+    std::vector<std::string> archives; ///< --archive: tar or zip files; their meshes are assets
+    std::string output_dir;            ///< in which archives are unpacked
     std::string table;                 ///< --table: a CSV or YAML file with one asset per row
     std::string base;                  ///< --base: the folder to mirror; empty: see find_assets
     std::function<Mark(const std::string&)> place; ///< the mark of a value on the command line
@@ -56,10 +59,11 @@ struct Settings {
     int jobs = 0;                              ///< number of concurrent assets and threads; 0: see run
     std::uint64_t memory = 0; ///< bytes for all concurrent assets; 0: three quarters of the available memory
     bool by_cause = false;    ///< see Summary
-    double time_limit = 0;    ///< seconds for each asset, or 0 for no limit
-    bool keep_going = false;  ///< continues after a failure
-    bool prune = false;       ///< removes outputs whose source is gone
-    bool pictures = false;    ///< makes pictures for outcomes
+    std::string picture_folder, link_base;          ///< see Summary
+    double time_limit = 0;                          ///< seconds for each asset, or 0 for no limit
+    bool keep_going = false;                        ///< continues after a failure
+    bool prune = false;                             ///< removes outputs whose source is gone
+    bool pictures = false;                          ///< makes pictures for outcomes
     std::optional<ModelRowSettings> model_row = {}; ///< measures each model
     bool check_invariants = false;
     bool rehearse = false;            ///< predicts outputs with pipeline::rehearsed_headers
@@ -92,6 +96,13 @@ struct Prepared {
 [[nodiscard]] Prepared prepare(const std::vector<Asset>& assets, const Settings& settings,
                                Problems& problems);
 
+/// A written file. Empty: not known, or not of this kind of file.
+struct OutcomeFile {
+    std::string path; ///< relative to the output folder of the batch
+    std::uint64_t bytes = 0;
+    std::optional<std::uint64_t> faces = {}, draw_calls = {}, pixels = {};
+};
+
 /// The outcome of an asset.
 struct Outcome {
     enum class Verdict { ok, failed, interrupted, not_run };
@@ -102,6 +113,8 @@ struct Outcome {
     Figures figures;
     std::vector<std::string> outputs; ///< relative to the output folder of the batch
     std::vector<std::string> reports; ///< the same
+    std::vector<OutcomeFile> files;   ///< the outputs
+    std::optional<double> deviation;  ///< the largest of its stages, in percent of the diagonal
     std::vector<Diagnostic> warnings, errors;
     std::string customer; ///< why the model was rejected, in plain words for its owner
     std::string picture;  ///< a PNG in base64, or empty
@@ -111,10 +124,14 @@ struct Summary {
     std::string pipeline;
     std::vector<Asset> assets;
     std::vector<Outcome> outcomes; ///< outcomes of the assets
+    std::filesystem::path output_dir;
+    std::string picture_folder; ///< relative to the output folder: PNG files for Markdown. Empty: none
+    std::string link_base;      ///< the address of the output folder for links in Markdown. Empty: relative
     std::vector<std::string> pruned;
     std::vector<Diagnostic> warnings, errors; ///< diagnostics of the batch as a whole
-    bool by_cause = false; ///< reports list causes instead of assets, so their size does not grow with the assets
-    int exit_code = 0;                        ///< the worst exit code
+    bool by_cause =
+        false;         ///< reports list causes instead of assets, so their size does not grow with the assets
+    int exit_code = 0; ///< the worst exit code
     int jobs = 0;
     double seconds = 0;
 };
@@ -156,6 +173,8 @@ struct Listener {
 [[nodiscard]] std::string render_for(const std::string& path, const Summary& summary);
 /// The JSON Schema of the report in JSON.
 [[nodiscard]] Json summary_schema();
+/// [assets] The names of their pictures in the picture folder, each different; empty without a picture.
+[[nodiscard]] std::vector<std::string> picture_names(const Summary& summary);
 /// Writes a table with a row per asset in the order of the inputs, as CSV, or as JSON lines for a suffix
 /// .jsonl. The columns are the plain values of an asset in the JSON report. put receives it piece by piece.
 void write_rows(const std::string& path, const Summary& summary,

@@ -9,7 +9,7 @@ namespace facetmill::batch {
 /// assets.
 struct Cause {
     Severity severity = Severity::error;
-    std::string id, about;                ///< about: the property of a check, or the warning that became an error
+    std::string id, about; ///< about: the property of a check, or the warning that became an error
     std::size_t assets = 0, messages = 0; ///< numbers of assets and of messages
     std::string first_asset, first_message;
 };

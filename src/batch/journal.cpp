@@ -37,6 +37,30 @@ std::vector<Stamp> stamps_from(const Json& json) {
     return all;
 }
 
+Json number_json(const std::optional<std::uint64_t>& number) {
+    return number ? Json(*number) : Json(nullptr);
+}
+
+std::optional<std::uint64_t> number_from(const Json& json) {
+    return json.is_null() ? std::nullopt : std::optional(json.get<std::uint64_t>());
+}
+
+Json files_json(const std::vector<OutcomeFile>& files) {
+    Json all = Json::array();
+    for (const auto& f : files)
+        all.push_back(
+            {f.path, f.bytes, number_json(f.faces), number_json(f.draw_calls), number_json(f.pixels)});
+    return all;
+}
+
+std::vector<OutcomeFile> files_from(const Json& json) {
+    std::vector<OutcomeFile> all;
+    for (const auto& one : json)
+        all.push_back({one.at(0).get<std::string>(), one.at(1).get<std::uint64_t>(), number_from(one.at(2)),
+                       number_from(one.at(3)), number_from(one.at(4))});
+    return all;
+}
+
 Json done_json(const Done& done) {
     Json json = {{"asset", done.asset},
                  {"digest", done.digest},
@@ -54,6 +78,8 @@ Json done_json(const Done& done) {
         if (!column.of_model || done.figures.model.measured())
             if (const auto value = column.value(done.figures)) json[column.key] = *value;
     if (done.figures.model.measured()) json["unit"] = done.figures.model.unit;
+    json["files"] = files_json(done.files);
+    if (done.deviation) json["deviation"] = *done.deviation;
     if (!done.measured.empty()) json["measured"] = done.measured;
     return json;
 }
@@ -70,6 +96,8 @@ Done done_from(const Json& json) {
     json.at("absent").get_to(done.absent);
     json.at("former").get_to(done.former);
     done.measured = json.value("measured", "");
+    if (const auto files = json.find("files"); files != json.end()) done.files = files_from(*files);
+    if (const auto most = json.find("deviation"); most != json.end()) done.deviation = most->get<double>();
     for (const Column& column : columns()) { // another release may lack some columns
         if (column.of_model && done.measured.empty()) continue;
         const auto value = json.find(column.key);

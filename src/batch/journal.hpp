@@ -2,7 +2,7 @@
 // Records completed runs in an output folder, so that the next batch skips unchanged assets.
 
 #include "base/error.hpp"
-#include "batch/figures.hpp"
+#include "batch/batch.hpp"
 #include "platform/descriptor.hpp"
 
 #include <cstdint>
@@ -36,6 +36,8 @@ struct Done {
     std::vector<std::pair<std::string, std::string>> former; ///< outputs of earlier runs with their digests
     Figures figures;
     std::string measured; ///< how the figures of the model were measured (Settings); empty: they were not
+    std::vector<OutcomeFile> files;                            ///< what the page shows of them
+    std::optional<double> deviation;                           ///< see Outcome
     std::vector<std::string> written;                          ///< outputs without reports, for the summary
     std::vector<std::pair<std::string, std::string>> warnings; ///< ids and messages
     std::string picture;

@@ -3,6 +3,9 @@
 namespace facetmill {
 
 const RegisterMessages batch_messages{
+    {"E-ARCHIVE",
+     "A file in an archive has a name that leads out of the archive's folder, or that occurs twice.",
+     "Make the archive again from inside its folder, with relative names.", ErrorKind::malformed},
     {"E-TABLE",
      "A table of params for a batch cannot be read. A row has too few or too many cells, a quote is not "
      "closed, or a column name is missing or repeated.",

@@ -9,6 +9,7 @@
 #include "batch/pool.hpp"
 #include "batch/reach.hpp"
 #include "io/bytes.hpp"
+#include "io/gltf/contents/draw_costs.hpp"
 #include "io/outputs/output_files.hpp"
 #include "parallel/memory.hpp"
 #include "parallel/parallel.hpp"
@@ -39,6 +40,44 @@ std::string from_folder(const Asset& asset, const std::string& output) {
 
 std::string absolute_name(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
 
+OutcomeFile file_of(const Asset& asset, const report::FileRecord& record) {
+    OutcomeFile file{from_folder(asset, record.path), record.bytes};
+    if (record.read_back.is_object() && record.read_back.contains("faces"))
+        file.faces = record.read_back.value("faces", std::uint64_t{0});
+    return file;
+}
+
+/// Reads what the written files cost to draw, for pages.
+void add_draw_costs(std::vector<OutcomeFile>& files, const fs::path& folder) {
+    for (OutcomeFile& file : files) {
+        try {
+            const auto input = io::Input::open(folder / file.path);
+            const io::DrawCosts costs = io::draw_costs(file.path, input.bytes());
+            if (costs.draw_calls > 0) file.draw_calls = costs.draw_calls;
+            if (costs.pixels > 0) file.pixels = costs.pixels;
+        } catch (const Error&) { // another process has removed it
+        }
+    }
+}
+
+/// The largest deviation that stages report for their parts, in percent of the diagonal.
+std::optional<double> deviation_of(const report::RunRecord& record) {
+    std::optional<double> most;
+    for (const auto& stage : record.stages) {
+        if (!stage.result.is_object()) continue;
+        const Json parts = stage.result.value("parts", Json::array());
+        for (const Json& part : parts) {
+            if (!part.is_object()) continue;
+            const Json deviation = part.value("deviation", Json::object());
+            const Json percent = deviation.is_object() ? deviation.value("percent", Json::object()) : Json();
+            if (!percent.is_object() || !percent.contains("maximum")) continue;
+            const Json& maximum = percent.at("maximum");
+            if (maximum.is_number()) most = std::max(most.value_or(0), maximum.get<double>());
+        }
+    }
+    return most;
+}
+
 Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     Outcome out;
     out.exit_code = record.exit_code;
@@ -47,6 +86,8 @@ Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     out.figures = figures_of(record);
     if (record.exit_code != 0) out.customer = report::customer_text(record);
     for (const auto& file : record.outputs) out.outputs.push_back(from_folder(asset, file.path));
+    for (const auto& file : record.outputs) out.files.push_back(file_of(asset, file));
+    out.deviation = deviation_of(record);
     for (const auto& report : record.reports) out.reports.push_back(from_folder(asset, report));
     for (auto& stage : record.stages)
         if (!stage.picture.empty()) out.picture = std::move(stage.picture);
@@ -81,6 +122,8 @@ Outcome kept_outcome(const Done& done) {
             out.reports.push_back(file.path);
     for (const auto& [id, message] : done.warnings)
         out.warnings.push_back({Severity::warning, id, message, {}, {}});
+    out.files = done.files;
+    out.deviation = done.deviation;
     out.picture = done.picture;
     return out;
 }
@@ -151,6 +194,8 @@ Done done_of(const Work& work, const std::vector<Stamp>& before, const report::R
     done.measured = measured;
     done.written = out.outputs;
     for (const auto& warning : out.warnings) done.warnings.emplace_back(warning.id, warning.message);
+    done.files = out.files;
+    done.deviation = out.deviation;
     done.picture = out.picture;
     return done;
 }
@@ -256,6 +301,9 @@ class BatchRun {
           journal_(settings.output_dir, settings.pipeline) {
         summary_.pipeline = settings.pipeline;
         summary_.by_cause = settings.by_cause;
+        summary_.output_dir = settings.output_dir;
+        summary_.picture_folder = settings.picture_folder;
+        summary_.link_base = settings.link_base;
         for (const auto& work : works_)
             for (const auto& input : work.inputs) claims_.read(input, work.asset.name);
         for (const auto& work : works_) summary_.assets.push_back(work.asset);
@@ -372,6 +420,7 @@ class BatchRun {
             };
         auto record = pipeline::run_plan(plan, run);
         Outcome out = outcome_of(work.asset, record);
+        if (settings_.pictures) add_draw_costs(out.files, settings_.output_dir);
         out.warnings = std::move(warnings);
         for (const auto& error : record.errors) out.errors.push_back(about_asset(work.asset, error));
         if (record.exit_code == 0)

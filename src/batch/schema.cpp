@@ -61,10 +61,10 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
     d.field(
          "path",
          [](const AssetOutcome& one) {
-             const std::string path = one.asset->input.string();
+             const std::string path = one.asset->of_archive ? one.asset->name : one.asset->input.string();
              return path.empty() ? std::nullopt : std::optional(path);
          },
-         "The input file.")
+         "The input file; in an archive, after the name of the archive.")
         .null_when("the row of the table has no input");
     d.choice("verdict", of_outcome(&Outcome::verdict), verdicts, "");
     d.field("exit_code", of_outcome(&Outcome::exit_code), "");
@@ -92,6 +92,19 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
          "The unit of lengths, areas and volumes, or unknown.")
         .null_when(not_measured);
     d.field("outputs", of_outcome(&Outcome::outputs), "The written files, relative to the output folder.");
+    d.list("files", of_outcome(&Outcome::files), "The written files with their sizes.",
+           [](DeclareFields<OutcomeFile>& f) {
+               f.field("path", &OutcomeFile::path, "");
+               f.field("bytes", &OutcomeFile::bytes, "");
+               f.field("faces", &OutcomeFile::faces, "").null_when("it is no mesh");
+               f.field("draw_calls", &OutcomeFile::draw_calls, "")
+                   .null_when("it is no glTF, or no page was made");
+               f.field("pixels", &OutcomeFile::pixels, "The pixels of its images.")
+                   .null_when("it has no images, or no page was made");
+           });
+    d.field("deviation", of_outcome(&Outcome::deviation),
+            "The largest deviation that stages report, in percent of the diagonal.")
+        .null_when("no stage measured a deviation");
     d.field("reports", of_outcome(&Outcome::reports),
             "The asset's own reports, relative to the output folder.");
     refer(d.list("errors", of_outcome(&Outcome::errors), "The errors of the asset.",
@@ -157,12 +170,12 @@ const Fields& summary_fields() {
             "causes", [](const Summary& summary) { return causes_of(summary); },
             "The errors and warnings by cause: errors first, then by the number of assets.", declare_cause);
         d.list(
-            "assets",
-            [](const Summary& summary) {
-                return summary.by_cause ? std::nullopt
-                                        : std::optional(outcomes_of(summary, worst_first(summary)));
-            },
-            "The assets, the most severe failures first.", declare_asset)
+             "assets",
+             [](const Summary& summary) {
+                 return summary.by_cause ? std::nullopt
+                                         : std::optional(outcomes_of(summary, worst_first(summary)));
+             },
+             "The assets, the most severe failures first.", declare_asset)
             .only_when("--summary by-id is not given");
     });
     return fields;

@@ -13,9 +13,19 @@ namespace facetmill::batch {
 
 [[nodiscard]] std::string to_text(const Summary& summary);
 [[nodiscard]] Json to_json(const Summary& summary);
-[[nodiscard]] std::string to_junit(const Summary& summary);    ///< an asset is a test case
-[[nodiscard]] std::string to_markdown(const Summary& summary); ///< a table, worst first
-[[nodiscard]] std::string
-to_html(const Summary& summary); ///< one self-contained page, with a picture for each asset
+[[nodiscard]] std::string to_junit(const Summary& summary); ///< an asset is a test case
+/// Causes and assets, worst first. path: the file of the report, from which links start.
+[[nodiscard]] std::string to_markdown(const Summary& summary, const std::string& path);
+/// A self-contained page, with a picture for each asset.
+[[nodiscard]] std::string to_html(const Summary& summary, const std::string& path);
+
+/// The folder of the inputs, or the only input; otherwise the pipeline.
+[[nodiscard]] std::string title_of(const Summary& summary);
+/// The address of a file of the output folder, from the file of a report.
+[[nodiscard]] std::string link_to(const Summary& summary, const std::string& report, const std::string& file);
+/// "33 of 40 assets are ok; exit code 1"
+[[nodiscard]] std::string verdict_line(const Summary& summary);
+/// The measured columns of an asset in one line: "volume 12, area 3".
+[[nodiscard]] std::string measures_text(const Figures& figures);
 
 } // namespace facetmill::batch

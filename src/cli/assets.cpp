@@ -31,7 +31,7 @@ void add_memory_option(Arguments& arguments, AssetOptions& options, const std::s
 
 void check_sources(const AssetOptions& options, const CommandLine& line, Problems& problems) {
     const auto& sources = options.sources;
-    const bool files = !sources.patterns.empty() || !sources.lists.empty();
+    const bool files = !sources.patterns.empty() || !sources.lists.empty() || !sources.archives.empty();
     if (!files && sources.table.empty())
         problems.add(line.mark(0), "E-ARGUMENT",
                      "there are no assets: give --input, --inputs-from or --table",
@@ -41,7 +41,8 @@ void check_sources(const AssetOptions& options, const CommandLine& line, Problem
                      "--table cannot be combined with --input and --inputs-from",
                      "use its column input for the inputs");
     int streams = options.pipeline == "-";
-    for (const auto& list : sources.lists) streams += list == "-";
+    for (const auto* all : {&sources.lists, &sources.archives})
+        for (const auto& file : *all) streams += file == "-";
     streams += sources.table == "-";
     if (streams > 1)
         problems.add(line.mark(0), "E-DUPLICATE-INPUT", "standard input can be read only once",
@@ -66,6 +67,7 @@ pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSet
 
 std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line, bool prune) {
     auto sources = options.sources;
+    sources.output_dir = options.common.output_dir;
     if (prune) sources.former = batch::former_assets(options.common.output_dir, options.pipeline);
     sources.place = [&](const std::string& text) { return line.value(text); };
     return batch::find_assets(sources);

@@ -3,9 +3,11 @@
 #include "base/math/numbers.hpp"
 #include "base/math/portable_math.hpp"
 #include "base/text/readable_numbers.hpp"
+#include "batch/archives.hpp"
 #include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
 #include "cli/warning_limiter.hpp"
+#include "io/gltf/document/container.hpp"
 #include "io/outputs/outputs.hpp"
 #include "io/rows.hpp"
 #include "parallel/memory.hpp"
@@ -40,6 +42,8 @@ Examples
 
 struct BatchOptions : AssetOptions {
     bool keep_going = false, prune = false;
+    std::string pictures, link_base; ///< for Markdown
+    std::string archive_out;
     std::string summary;             ///< by-asset or by-id
     std::vector<std::string> tables; ///< files with a row per asset
     double overhang_angle = 45;      ///< in degrees
@@ -59,7 +63,8 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--prune", &options.prune,
                   "Removes outputs of earlier batches whose input no longer exists.");
     arguments.add("--report", &options.common.reports,
-                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt. - writes JSON to standard\noutput.");
+                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt. - writes JSON to "
+                  "standard\noutput.");
     arguments.add(
         "--time-limit", &options.time_limit,
         "The time for each asset: 30s, 500ms, 5min or 1h. An asset that takes longer fails (E-TIME), "
@@ -76,6 +81,21 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
              "by-asset lists every asset. by-id groups errors and warnings by id, on the terminal in at most "
              "ten\nlines. Reports then list no assets; --table-out does.")
         .one_of({"by-asset", "by-id"});
+    arguments.add("--pictures", &options.pictures,
+                  "Also writes a picture of each asset as PNG into this folder below the output folder. F.md "
+                  "shows\nthem.");
+    arguments.add(
+        "--link-base", &options.link_base,
+        "The address under which the output folder is published. Links and pictures in F.md begin with "
+        "it.");
+    arguments.add(
+        "--archive", &options.sources.archives,
+        "A tar (also .gz or .zst) or zip file, or - for a tar on standard input. Each mesh in it is "
+        "an\nasset.");
+    arguments.add(
+        "--archive-out", &options.archive_out,
+        "Also packs the outputs of successful assets into F.tar or F.zip. - writes a tar to standard "
+        "output.");
     arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
     add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
@@ -155,6 +175,16 @@ void write_table(const std::filesystem::path& target, const std::string& path,
     outputs.commit();
 }
 
+void write_pictures(const batch::Summary& summary, const std::filesystem::path& folder) {
+    const auto names = batch::picture_names(summary);
+    io::Outputs outputs;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (!names[i].empty())
+            outputs.add(folder / names[i],
+                        io::gltf::data_uri_bytes("data:;base64," + summary.outcomes[i].picture));
+    outputs.commit();
+}
+
 void write_summary(const batch::Summary& summary, const BatchOptions& options, const Folders& places,
                    const Console& console) {
     const auto tell = [&](const std::string& path) {
@@ -165,6 +195,7 @@ void write_summary(const batch::Summary& summary, const BatchOptions& options, c
         tell(path);
     };
     for (const auto& report : options.common.reports) write(report, batch::render_for(report, summary));
+    if (!options.pictures.empty()) write_pictures(summary, places.output(options.pictures));
     for (const auto& table : options.tables) {
         write_table(places.output(table), table, summary);
         tell(table);
@@ -191,7 +222,7 @@ batch::Listener listener_for(const BatchOptions& options, const Folders& places,
     batch::Listener listener;
     const bool by_cause = options.summary == "by-id";
     listener.on_finished = [&console, bar, by_cause](const batch::Asset& asset, const batch::Outcome& out,
-                                           const batch::Summary& so_far) {
+                                                     const batch::Summary& so_far) {
         bar->clear();
         tell_asset(asset, out, so_far, console, by_cause);
         bar->draw(so_far);
@@ -236,6 +267,9 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     settings.memory = memory_bytes(options.memory, line);
     set_memory_limit(settings.memory);
     settings.keep_going = options.keep_going;
+    settings.picture_folder = options.pictures;
+    settings.pictures = !options.pictures.empty();
+    settings.link_base = options.link_base;
     settings.by_cause = options.summary == "by-id";
     settings.time_limit = seconds_of(options.time_limit, line);
     settings.prune = options.prune;
@@ -248,6 +282,7 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     }
     for (const auto& table : options.tables) settings.others.push_back(places.output(table));
     if (!options.tables.empty()) settings.model_row = {options.overhang_angle * pi / 180, true};
+    if (!options.archive_out.empty()) settings.others.push_back(places.output(options.archive_out));
     if (!options.common.timings.empty()) settings.others.push_back(places.output(options.common.timings));
     settings.read = {options.sources.lists.begin(), options.sources.lists.end()};
     for (const auto& file : {options.pipeline, options.sources.table})
@@ -275,6 +310,22 @@ AllowedFiles allowed_for(const std::vector<batch::Work>& works, const batch::Set
     return allowed;
 }
 
+/// Removes the unpacked files of archives at the end. After a signal they stay until the next batch.
+class RemoveUnpacked {
+  public:
+    explicit RemoveUnpacked(const BatchOptions& options) : options_(options) {}
+    ~RemoveUnpacked() {
+        std::error_code ignored;
+        for (const auto& archive : options_.sources.archives)
+            std::filesystem::remove_all(batch::unpack_folder(options_.common.output_dir, archive), ignored);
+    }
+    RemoveUnpacked(const RemoveUnpacked&) = delete;
+    RemoveUnpacked& operator=(const RemoveUnpacked&) = delete;
+
+  private:
+    const BatchOptions& options_;
+};
+
 int batch_work(const BatchOptions& options, const CommandLine& line, const Console& console) {
     Problems problems;
     check_sources(options, line, problems);
@@ -292,6 +343,10 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
             problems.add(e.at(line.value(table)));
         }
     }
+    if (!options.archive_out.empty() && !batch::is_archive_name(options.archive_out))
+        problems.add(line.value(options.archive_out), "E-FORMAT",
+                     fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
+                     "use a name that ends in .tar or .zip");
     if (!(options.overhang_angle <= 90))
         problems.add(line.find("--overhang-angle"), "E-RANGE",
                      fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
@@ -303,6 +358,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     confine_calls_only(common.sandbox); // planning reads all headers first
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
+    const RemoveUnpacked at_end(options);
     const auto assets = assets_of(options, line, options.prune);
     auto prepared = batch::prepare(assets, settings, problems);
     const auto refuse = [&](ErrorKind kind, const std::vector<Diagnostic>& why) {
@@ -322,6 +378,8 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
         batch::run(std::move(prepared.works), settings, listener_for(options, of_all.places, console, bar));
     bar->clear();
     tell_summary(summary, options, of_all.places, console);
+    if (!options.archive_out.empty())
+        batch::write_archive(summary, of_all.places.output(options.archive_out));
     return summary.exit_code;
 }
 

@@ -164,10 +164,10 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                        "The number of threads. It does not change the result. Default: all cores.");
     arguments.add("-o,--output-dir", &options.output_dir,
                   "The folder for relative paths of outputs. Default: the working directory.");
-    arguments.add(
-        "--report", &options.reports,
-        "Also writes a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or F.txt.\n- writes "
-        "JSON to standard output.");
+    arguments.add("--report", &options.reports,
+                  "Also writes a report into the output folder: F.json, F.html, F.md, F.xml (JUnit) or "
+                  "F.txt.\n- writes "
+                  "JSON to standard output.");
     arguments.add("--timings", &options.timings,
                   "Writes times, memory and threads to F.json, or a report page with them to F.html.\nOther "
                   "reports omit them so that they are reproducible.");

@@ -40,6 +40,8 @@ const RegisterMessages io_messages{
      ErrorKind::output},
     {"E-SIZE", "A file is too large to read or write.",
      "Uncompress it first, write another format, or split the scene.", ErrorKind::limit},
+    {"E-TAR", "A tar archive is damaged or truncated.", "Make the archive again, or download it again.",
+     ErrorKind::malformed},
     {"E-URI", "A glTF file refers to a file outside its directory.",
      "Copy the file there, or name a folder that holds all files with `--asset-root DIR` or `load: {path: "
      "..., asset_root: DIR}`. facetmill never follows absolute paths, URLs, or links that lead out of the "

@@ -35,11 +35,6 @@ const RegisterMessages pipeline_messages{
      "Choose a unique name without `. / [ ]`.", ErrorKind::usage},
     {"E-ORDER", "A stage needs a scene, but no earlier stage loads one.", "Begin with `load` or `generate`.",
      ErrorKind::usage},
-    {"E-TIME",
-     "A run took longer than `--time-limit`. Its outputs were not written. Stages stop where they report "
-     "progress, "
-     "so a run may end some time after the limit.",
-     "Allow more time, or reduce the mesh first with `simplify`.", ErrorKind::limit},
     {"E-PARAM", "A param is not declared, has no value, or has an invalid declaration.",
      "Set it with `-D name=value`. Run `facetmill plan PIPELINE` to list the params with their values.",
      ErrorKind::usage},
@@ -56,6 +51,11 @@ const RegisterMessages pipeline_messages{
      "A warning counts as an error because of `--strict`, or the id given to `--strict` is unknown.",
      "Check the warning. Run `facetmill explain` to list the ids.",
      {ErrorKind::usage, ErrorKind::check}},
+    {"E-TIME",
+     "A run took longer than `--time-limit`. Its outputs were not written. Stages stop where they report "
+     "progress, "
+     "so a run may end some time after the limit.",
+     "Allow more time, or reduce the mesh first with `simplify`.", ErrorKind::limit},
     {"E-UNQUOTED", "An expression inside `{}` or `[]` is not quoted.", "Write it in quotes: `\"${x}\"`.",
      ErrorKind::usage},
     {"E-VARIABLE", "No variable has this name.",

@@ -11,7 +11,7 @@ namespace facetmill::pipeline {
 
 struct RunSettings {
     Progress* progress = nullptr;
-    double time_limit = 0; ///< seconds for the run, or 0 for no limit; see pipeline/time_limit.hpp
+    double time_limit = 0;           ///< seconds for the run, or 0 for no limit; see pipeline/time_limit.hpp
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
     bool check_invariants = false; ///< checks mesh/invariants.hpp after every stage (for tests)

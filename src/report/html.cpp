@@ -30,8 +30,17 @@ std::string verdict(const RunRecord& record) {
                        verdict_text(record));
 }
 
+/// The title is the first input; without inputs, the pipeline.
+std::string beginning(const RunRecord& record) {
+    if (record.inputs.empty()) return html_begin(short_name(record.pipeline), record.about, record.pipeline);
+    const std::string pipeline = fmt::format("pipeline {}", short_name(record.pipeline));
+    return html_begin(short_name(record.inputs.front().path),
+                      record.about.empty() ? pipeline : fmt::format("{} ({})", record.about, pipeline),
+                      record.inputs.front().path);
+}
+
 std::string page(const RunRecord& record, const Json& view, bool with_times) {
-    std::string out = html_begin(short_name(record.pipeline), record.about, record.pipeline);
+    std::string out = beginning(record);
     out += verdict(record) + glance_section(record, with_times);
     out += table("Errors", heads({"id", "message", "where", "hint"}), diagnostics(record.errors, "bad"));
     out += table("Warnings", heads({"id", "message", "where", "hint"}), diagnostics(record.warnings, "warn"));

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <type_traits>
 
 namespace facetmill {
@@ -217,7 +218,7 @@ class Joiner {
             return;
         }
         double& a = at->second;
-        if (property.join == Join::sum)
+        if (property.join == Join::sum || property.join == Join::sum_if_all)
             a += *value;
         else if (property.join == Join::most)
             a = std::max(a, *value);
@@ -238,6 +239,11 @@ void measure_requested(Properties& p, const Mesh& world, const Mesh& local, cons
         steps.next();
     }
     p.requested = std::move(values);
+}
+
+/// Whether a sum over all parts lacks the value of this part.
+bool lacks_value(const Property& property, const Properties& part) {
+    return property.on_request() && property.join == Join::sum_if_all && !property.get(part);
 }
 
 /// The relative times to inspect a mesh and to measure the requested properties.
@@ -306,14 +312,18 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     ProgressSteps steps(std::move(lengths));
     const DistinctParts meshes(scene);
     std::map<std::size_t, Properties> known; // properties of repeated meshes
+    std::set<const Property*> incomplete;    // sums that lack the value of a part
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const auto alike = known.find(meshes.first[i]);
         const Properties own =
             inspect_alike(scene.parts[i], settings, alike == known.end() ? nullptr : &alike->second);
         if (meshes.uses[i] > 1) known.emplace(i, own);
         for (const Property& property : property_table()) Joiner(sum, own).add(property);
+        for (const Property* property : settings.requested)
+            if (lacks_value(*property, own)) incomplete.insert(property);
         steps.next();
     }
+    std::erase_if(sum.requested, [&](const auto& value) { return incomplete.contains(value.first); });
     return sum;
 }
 

@@ -347,6 +347,7 @@ class SceneMaker {
     /// Files of the archive that are not read, such as the settings of slicers. Pictures are previews.
     std::vector<std::string> other_files() const {
         std::vector<std::string> files = archive_.paths();
+        for (std::string& path : files) path = lower_case(path);
         std::erase_if(files, [](const std::string& path) {
             constexpr std::string_view known[] = {"/", ".rels", ".model", ".png", ".jpg", ".jpeg"};
             return path == "[content_types].xml" ||

@@ -88,6 +88,7 @@ std::uint64_t Archive::read_entry(std::uint64_t at) {
     if (next > bytes_.size()) fail(at, "an entry of the directory goes beyond the end");
     take_zip64(entry, begin + name, begin + name + extra);
     const std::string path(as_text(bytes_.subspan(begin, name)));
+    entry.path = path;
     if (!entries_.emplace(lower_case(path), entry).second)
         fail(at, fmt::format("the entry '{}' is there twice", path));
     return next;
@@ -111,7 +112,7 @@ void Archive::take_zip64(Entry& entry, std::uint64_t at, std::uint64_t end) cons
 std::vector<std::string> Archive::paths() const {
     std::vector<std::string> all;
     all.reserve(entries_.size());
-    for (const auto& [path, entry] : entries_) all.push_back(path);
+    for (const auto& [key, entry] : entries_) all.push_back(entry.path);
     return all;
 }
 

@@ -18,7 +18,7 @@ class Archive {
     /// and other compression methods. Throws a limit error (E-SIZE) if the total unpacked size is
     /// implausible for a mesh (see unpacked()).
     std::optional<Bytes> file(const std::string& path);
-    /// The paths of all entries in lower case, sorted.
+    /// The paths of all entries, as they are stored, in the order without case.
     [[nodiscard]] std::vector<std::string> paths() const;
 
   private:
@@ -26,6 +26,7 @@ class Archive {
         std::uint64_t at = 0, packed = 0, size = 0;
         std::uint32_t crc = 0;
         unsigned method = 0, flags = 0;
+        std::string path;
     };
     std::uint64_t number(std::uint64_t at, int bytes) const;
     [[noreturn]] void fail(std::uint64_t at, const std::string& message) const;
