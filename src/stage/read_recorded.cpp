@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "diff/conversion.hpp"
 #include "io/convert.hpp"
+#include "mesh/power_scale.hpp"
 
 #include <fmt/format.h>
 
