@@ -4,6 +4,7 @@
 #include "base/progress.hpp"
 #include "diff/conversion.hpp"
 #include "io/convert.hpp"
+#include "mesh/power_scale.hpp"
 
 #include <fmt/format.h>
 
@@ -78,13 +79,13 @@ bool warn_of_convention(const std::string& name, const report::Origin& origin, c
 
 } // namespace
 
-Scene read_beside(const PathText& path, const Scene& scene, Context& context) {
+Scene read_beside(const PathText& path, const Scene& scene, Context& context, bool compares) {
     io::ReadSettings settings;
     settings.asset_roots = context.places().asset_roots;
     Scene other = read_recorded(context.places().input(path.text), settings, nullptr, context).first;
     const io::Convention its{other.unit, other.up}, own{scene.unit, scene.up};
     const report::Origin origin{own, its, io::convert(other, own)};
-    if (!warn_of_convention(path.text, origin, other, scene, context))
+    if (!compares || !warn_of_convention(path.text, origin, other, scene, context))
         warn_of_sizes(path.text, its.unit, other, scene, context);
     return other;
 }

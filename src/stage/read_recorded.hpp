@@ -21,7 +21,9 @@ void record_input(Context& context, const std::string& path, std::size_t bytes, 
 
 /// Reads the mesh file of an option, in the scene's unit and up axis. Warns if both are the same shape in
 /// another unit or up axis (W-CONVENTION), or if one of the scenes has no unit and their sizes differ by a
-/// factor of a hundred (W-UNITS). Throws the errors of read_recorded.
-[[nodiscard]] Scene read_beside(const PathText& path, const Scene& scene, Context& context);
+/// factor of a hundred (W-UNITS). compares: false if another up axis is no mistake. Throws the errors of
+/// read_recorded.
+[[nodiscard]] Scene read_beside(const PathText& path, const Scene& scene, Context& context,
+                                bool compares = true);
 
 } // namespace facetmill

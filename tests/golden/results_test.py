@@ -90,6 +90,8 @@ RUNS = [
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
     "load cubes.obj ! normals --with open.off ! remesh 0.3",
+    "load cubes.obj ! clean --hidden --smaller_than 1",
+    "load open.off ! align cubes.obj ! transfer cubes.obj",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
 ]
 

@@ -9,6 +9,8 @@
 
 using namespace facetmill;
 using test::failure;
+using test::options;
+using test::problems_of;
 using test::run_stage;
 using test::scene_of;
 
@@ -139,4 +141,21 @@ TEST_CASE("clean resolves the intersections that rounding to single makes", "[st
     const auto before = find_self_intersections(ball).count,
                after = find_self_intersections(other.mesh()).count;
     if (after > before) CHECK(other.warnings() == std::vector<std::string>{"W-CLEAN"});
+}
+
+TEST_CASE("clean: small components and hidden faces are removed, with their area", "[stages]") {
+    Mesh mesh = shapes::icosphere(2);
+    Mesh cube = shapes::cube();
+    for (Vec3& p : cube.positions) p = p * 0.1;
+    append(mesh, cube);
+    const auto small = run_stage("clean", options({{"smaller_than", "0.5"}}), scene_of(mesh));
+    const auto& part = small.record.result["parts"][0];
+    CHECK(part["removed_components"] == 1);
+    CHECK(part["component_faces"] == 12);
+    CHECK(part["component_area"].get<double>() == Approx(0.06));
+    const auto seen = run_stage("clean", options({{"hidden", "true"}}), scene_of(mesh));
+    CHECK(seen.mesh().face_count() == 320);
+    CHECK(seen.record.result["parts"][0]["hidden_area"].get<double>() == Approx(0.06));
+    CHECK(seen.record.result["parts"][0]["outer_rays"] > 100000);
+    CHECK(problems_of("clean", options({{"gap", "1"}})).substr(0, 11) == "E-CONFLICT ");
 }

@@ -93,6 +93,7 @@ struct CleanCounts {
                 split_edges = 0, filled_holes = 0, hole_faces = 0, open_components = 0,
                 open_component_faces = 0, components = 0, component_faces = 0, inner_components = 0,
                 inner_component_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
+    double component_area = 0;         ///< of the removed small components, in mesh units
     std::size_t united_components = 0; ///< closed components that intersected and were united
     std::size_t refined_faces = 0;     ///< faces cut along intersections, counted once per pass
     std::size_t covered_faces = 0;     ///< faces without intersections, inside another component

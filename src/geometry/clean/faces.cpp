@@ -265,6 +265,8 @@ bool remove_components(Work& work, const ComponentSettings& s) {
                          [&](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
         for (std::size_t i = s.keep; i < order.size(); ++i) all[order[i]].goes = true;
     }
+    for (const Component& p : all)
+        if (p.goes) work.counts.component_area += p.area;
     return remove_where(
         work, components, [&](Index p) { return all[p].goes; }, work.counts.components,
         work.counts.component_faces);

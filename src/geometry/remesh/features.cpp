@@ -8,11 +8,15 @@ namespace facetmill::remeshing {
 
 namespace {
 
+/// A flag during the layout: the edge is a feature only because of its angle.
+constexpr std::uint8_t sharp = 8;
+
 /// Lays out a mesh step by step.
 class Layout {
   public:
-    Layout(const Mesh& mesh, double feature_angle)
-        : mesh_(mesh), least_cosine_(feature_angle >= pi ? -2 : cosine(feature_angle)) {}
+    Layout(const Mesh& mesh, double feature_angle, double least_line)
+        : mesh_(mesh), least_line_(least_line),
+          least_cosine_(feature_angle >= pi ? -2 : cosine(feature_angle)) {}
 
     LaidOut run() {
         keep_faces_with_three_corners();
@@ -28,6 +32,7 @@ class Layout {
         }
         work().degrees.assign(mesh_.vertex_count(), 0);
         for (Index e = 0; e < edges.size(); ++e) add_edge(edges, e);
+        forget_short_lines();
         set_regions();
         set_kinds();
         return std::move(out_);
@@ -86,7 +91,23 @@ class Layout {
                 if (a->value(f, c) != a->value(g, c)) return feature;
         const Vec3 n = normalised(m.face_normal(h / 3)), o = normalised(m.face_normal(twin / 3));
         const bool flat = !(dot(n, n) > 0) || !(dot(o, o) > 0); // without area there is no angle
-        return !flat && exceeds_feature_angle(dot(n, o), least_cosine_) ? feature : 0;
+        return !flat && exceeds_feature_angle(dot(n, o), least_cosine_) ? feature | sharp : 0;
+    }
+
+    void forget_short_lines() {
+        WorkingMesh& m = work();
+        DisjointSets lines(m.points.size());
+        std::vector<double> lengths(m.points.size());
+        const auto is_sharp = [&](Index h) { return (m.flags[h] & sharp) != 0 && m.stands(h); };
+        for (Index h = 0; h < m.corners.size(); ++h)
+            if (is_sharp(h)) lines.join(m.from(h), m.to(h));
+        for (Index h = 0; h < m.corners.size(); ++h)
+            if (is_sharp(h)) lengths[lines.find(m.from(h))] += m.edge_length(h);
+        for (Index h = 0; h < m.corners.size(); ++h) {
+            if (!(m.flags[h] & sharp)) continue;
+            const bool is_short = lengths[lines.find(m.from(h))] < least_line_;
+            m.flags[h] = is_short ? 0 : feature;
+        }
     }
 
     void set_regions() {
@@ -130,7 +151,7 @@ class Layout {
     }
 
     const Mesh& mesh_;
-    double least_cosine_;
+    double least_line_, least_cosine_;
     LaidOut out_;
     std::vector<Index> source_; ///< [faces of the working mesh] faces of the input
     std::vector<const Attribute*> borders_;
@@ -138,6 +159,8 @@ class Layout {
 
 } // namespace
 
-LaidOut lay_out(const Mesh& mesh, double feature_angle) { return Layout(mesh, feature_angle).run(); }
+LaidOut lay_out(const Mesh& mesh, double feature_angle, double least_line) {
+    return Layout(mesh, feature_angle, least_line).run();
+}
 
 } // namespace facetmill::remeshing

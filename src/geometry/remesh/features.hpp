@@ -12,6 +12,7 @@ struct LaidOut {
     std::vector<Index> regions_of_faces; ///< [faces of the input] regions
     std::size_t locked_edges = 0, dropped_faces = 0;
 };
-[[nodiscard]] LaidOut lay_out(const Mesh& mesh, double feature_angle);
+/// Connected sharp edges of less than least_line in total are noise, and no features.
+[[nodiscard]] LaidOut lay_out(const Mesh& mesh, double feature_angle, double least_line);
 
 } // namespace facetmill::remeshing

@@ -25,7 +25,10 @@ class Diagonals {
         if (c == d || m_.degrees[a] <= 3 || m_.degrees[b] <= 3) return false;
         const auto many = [&](Index v) { return m_.kinds[v] == VertexKind::many; };
         if (many(c) && many(d)) return false;
-        for (const Vec3& before : {m_.normal(a, b, c), m_.normal(b, a, d)})
+        Vec3 first = m_.normal(a, b, c), second = m_.normal(b, a, d);
+        if (shape(a, b, c) < sliver) first = second;
+        if (shape(b, a, d) < sliver) second = first;
+        for (const Vec3& before : {first, second})
             for (const Vec3& after : {m_.normal(a, d, c), m_.normal(b, c, d)})
                 if (!may_turn(before, after) || !(dot(after, after) > 0)) return false;
         return !m_.are_joined(c, d);

@@ -85,7 +85,7 @@ class Collapser {
             if (!(m_.flags[h] & feature) || m_.kinds[b] == VertexKind::free || !keeps_line(h)) return false;
         } else if (m_.kinds[a] != VertexKind::free)
             return false;
-        return keeps_topology(h) && keeps_shape(h);
+        return keeps_shape(h) && keeps_topology(h); // the faster check comes first
     }
 
     /// The link condition, and no face left with two borders.
@@ -111,13 +111,25 @@ class Collapser {
         const Index a = m_.from(h), b = m_.to(h);
         const Vec3 &old = m_.points[a], &place = m_.points[b];
         double worst_before = 1, worst_after = 1;
+        const auto is_too_long = [&](Index p) {
+            const double most = longest_share * std::min(m_.sizes[p], m_.sizes[b]);
+            const Vec3 edge = m_.points[p] - place;
+            return dot(edge, edge) > most * most;
+        };
+        Vec3 mean; // the normal of all faces together
+        m_.around(a, [&](Index leaving) {
+            mean += m_.face_normal(leaving / 3);
+            return true;
+        });
         const bool kept = m_.around(a, [&](Index leaving) {
             const Index p = m_.to(leaving), q = m_.opposite(leaving);
             const Vec3 &v = m_.points[p], &w = m_.points[q];
-            worst_before = std::min(worst_before, shape_of(old, v, w));
+            const double shape = shape_of(old, v, w);
+            worst_before = std::min(worst_before, shape);
             if (p == b || q == b) return true;
-            if (length(v - place) > longest_share * std::min(m_.sizes[p], m_.sizes[b])) return false;
-            if (!may_turn(cross(v - old, w - old), cross(v - place, w - place))) return false;
+            if (is_too_long(p) || is_too_long(q)) return false;
+            if (!may_turn(shape < sliver ? mean : cross(v - old, w - old), cross(v - place, w - place)))
+                return false;
             worst_after = std::min(worst_after, shape_of(place, v, w));
             return true;
         });

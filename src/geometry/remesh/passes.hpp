@@ -15,6 +15,9 @@ inline constexpr double least_turn = 0.5;
     return along > 0 && along * along >= least_turn * least_turn * square;
 }
 
+/// Triangles of a worse shape have a normal that says little about the surface.
+inline constexpr double sliver = 0.15;
+
 /// The shape of a triangle: 1 for an equilateral one, 0 for one without area.
 [[nodiscard]] double shape_of(const Vec3& a, const Vec3& b, const Vec3& c);
 

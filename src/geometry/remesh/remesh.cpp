@@ -150,7 +150,8 @@ RemeshResult remesh(Mesh mesh, const RemeshSettings& given) {
     NormalSeams::Shading shading = NormalSeams::Shading::as_given;
     if (mesh.has_seams() && mesh.find("NORMAL", Domain::wedge))
         shading = merge_normal_seams(mesh, settings.feature_angle).shading;
-    LaidOut laid = lay_out(mesh, settings.feature_angle);
+    LaidOut laid = lay_out(mesh, settings.feature_angle,
+                           2 * (settings.length > 0 ? settings.length : settings.min_length));
     WorkingMesh& m = laid.mesh;
     m.sizes = intended_sizes(m, settings);
     m.hints.assign(m.points.size(), none);

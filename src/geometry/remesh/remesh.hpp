@@ -37,7 +37,8 @@ struct RemeshResult {
 ///
 /// Every vertex of the result is a point of the input surface, up to rounding. Kept are boundaries, sharp
 /// edges, seams of attributes, and borders of materials and of other face attributes with identifiers. Their
-/// vertices move only along them, and a vertex where they end, meet or turn stays. Edges that are not
+/// vertices move only along them, and a vertex where they end, meet or turn stays. Connected sharp edges of
+/// less than two lengths in total are noise, and not kept. Edges that are not
 /// manifold stay as they are. No step makes an edge or a vertex non-manifold, turns the normal of a face by
 /// more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and manifold.
 ///

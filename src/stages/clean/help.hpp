@@ -69,6 +69,14 @@ No move may invert or flatten a face or make it meet another one.
 This test is exact, and vertices that fail it do not move (W-CLEAN).
 With apart: false, no vertex moves.
 
+The step hidden: true runs first, and removes faces that no ray from outside reaches.
+All parts of the scene hide each other, in the bind pose.
+In 14 directions, parallel rays cover the scene, so close that every opening in these directions that is
+wider than gap lets a ray through.
+From each face that they do not reach, up to 256 rays in evenly spread directions look for a way out.
+Neighbours of reached faces stay.
+The report gives the numbers of rays, removed faces and their area.
+
 The step unit_vectors: true runs last.
 It mends normals, tangents and joint weights that glTF does not accept, as `normals: keep` does.
 Other values stay unchanged.

@@ -47,6 +47,29 @@ void declare_components(Declare<CleanComponentOptions>& d) {
         .at_least(0);
 }
 
+/// The options that remove whole components, or faces that nobody sees.
+void declare_removal(Declare<CleanOptions>& d) {
+    d.group("components", &CleanOptions::components, "Removes small components. By default, all are kept.",
+            declare_components)
+        .also_called(property_named("components")->also_called)
+        .also_called("keep_largest largest largest_component", "components: {keep: 1}");
+    d.option("smaller_than", &CleanOptions::smaller_than,
+             "Removes components whose bounding box has a shorter diagonal, for example 2mm.")
+        .also_called("min_size small tiny remove_small", "smaller_than: 2mm")
+        .above(0);
+    d.option("hidden", &CleanOptions::hidden,
+             "Removes faces that no ray from outside reaches, behind all parts of the scene.")
+        .also_called("remove_hidden invisible remove_invisible interior remove_interior occluded");
+    d.option("gap", &CleanOptions::gap,
+             "With hidden: openings wider than this count as open. Default: 1% of the scene's diagonal.")
+        .above(0);
+    d.option("open_components", &CleanOptions::open_components,
+             "Removes components that stay open, such as sheets and fins on a solid, if closed components "
+             "remain.");
+    d.option("inner_components", &CleanOptions::inner_components,
+             "Removes closed components inside other components.");
+}
+
 /// A choice that also accepts true and false.
 void declare_self_intersections(Declare<CleanOptions>& d) {
     Option& o =
@@ -108,15 +131,7 @@ void declare_clean(Declare<CleanOptions>& d) {
         .also_called("fill_holes close_holes fill fill_hole", "holes: {method: smooth}")
         .option()
         .may_be_true = true;
-    d.group("components", &CleanOptions::components, "Removes small components. By default, all are kept.",
-            declare_components)
-        .also_called(property_named("components")->also_called)
-        .also_called("keep_largest largest largest_component", "components: {keep: 1}");
-    d.option("open_components", &CleanOptions::open_components,
-             "Removes components that stay open, such as sheets and fins on a solid, if closed components "
-             "remain.");
-    d.option("inner_components", &CleanOptions::inner_components,
-             "Removes closed components inside other components.");
+    declare_removal(d);
     d.option("isolated", &CleanOptions::isolated,
              "Removes vertices that no face uses. The points of point clouds are kept.")
         .also_called("remove_unreferenced remove_isolated unreferenced");
@@ -161,6 +176,7 @@ CleanSettings clean_steps_of(const CleanOptions& o) {
             ComponentSettings{.min_faces = static_cast<std::size_t>(o.components->min_faces),
                               .min_area = o.components->min_area ? o.components->min_area->value : 0,
                               .keep = static_cast<std::size_t>(o.components->keep)};
+    if (o.smaller_than && !s.components) s.components.emplace();
     return s;
 }
 
@@ -173,6 +189,8 @@ CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Pa
     s.tolerance = local(o.tolerance, "tolerance");
     if (o.holes) s.holes->max_length = local(o.holes->max_length, "holes.max_length");
     if (o.components) s.components->min_size = local(o.components->min_size, "components.min_size");
+    if (o.smaller_than)
+        s.components->min_size = std::max(s.components->min_size, local(o.smaller_than, "smaller_than"));
     return s;
 }
 
@@ -192,6 +210,8 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
                             "were merged and non-manifold ones separated",
                             "use precision: single, with weld and non_manifold on"},
                     "clean", given, problems);
+    if (o.gap && !o.hidden)
+        add_refusal(Refusal{"gap", "'gap' needs hidden: true", "add hidden: true"}, "clean", given, problems);
     const auto& c = o.components;
     if (c && c->min_faces == 0 && !c->min_size && !c->min_area && c->keep == 0)
         problems.add(given.mark, "E-MISSING", "clean: components needs a limit for small components",

@@ -15,7 +15,10 @@ void declare_not_done(DeclareFields<NotDone>& d) {
 void declare_part(DeclareFields<CleanedPart>& d) {
     d.field("part", &CleanedPart::part, "The name of the part.");
     d.field(
-        "changed", [](const CleanedPart& p) { return p.counts.total() + p.scaled > 0; },
+        "changed",
+        [](const CleanedPart& p) {
+            return p.counts.total() + p.scaled + (p.hidden ? p.hidden->faces : 0) > 0;
+        },
         "Whether the part was changed.");
     const auto count = [&](const char* name, std::size_t CleanCounts::*member, const char* help) {
         d.field(
@@ -37,6 +40,25 @@ void declare_part(DeclareFields<CleanedPart>& d) {
     count("open_component_faces", &C::open_component_faces, "Faces of the removed open components.");
     count("removed_components", &C::components, "Removed small components.");
     count("component_faces", &C::component_faces, "Faces of the removed small components.");
+    d.field(
+         "component_area", [](const CleanedPart& p) { return p.counts.component_area; },
+         "The area of the removed small components.")
+        .unit("square scene units");
+    const auto hidden = [&](const char* name, auto member, const char* help) {
+        using Value = std::decay_t<decltype(std::declval<HiddenCounts>().*member)>;
+        return d
+            .field(
+                name,
+                [member](const CleanedPart& p) {
+                    return p.hidden ? std::optional<Value>((*p.hidden).*member) : std::nullopt;
+                },
+                help)
+            .only_when("hidden is true");
+    };
+    hidden("hidden_faces", &HiddenCounts::faces, "Removed faces that no ray reached.");
+    hidden("hidden_area", &HiddenCounts::area, "Their area.").unit("square scene units");
+    hidden("outer_rays", &HiddenCounts::outer_rays, "Rays from outside, for the whole scene.");
+    hidden("face_rays", &HiddenCounts::face_rays, "Rays from faces that these did not reach.");
     count("removed_inner_components", &C::inner_components, "Removed components inside others.");
     count("inner_component_faces", &C::inner_component_faces, "Faces of the removed inner components.");
     count("isolated_vertices", &C::isolated_vertices, "Removed vertices without faces.");

@@ -6,11 +6,19 @@
 
 namespace facetmill::clean_stage {
 
+/// Faces that were removed because no ray reached them.
+struct HiddenCounts {
+    std::size_t faces = 0;
+    double area = 0;                           ///< in world space
+    std::size_t outer_rays = 0, face_rays = 0; ///< of the whole scene
+};
+
 struct CleanedPart {
     std::string part;
     CleanCounts counts;
-    std::size_t scaled = 0;        ///< vectors and weights of wedges
-    std::vector<NotDone> not_done; ///< the first few, in world space
+    std::size_t scaled = 0;             ///< vectors and weights of wedges
+    std::optional<HiddenCounts> hidden; ///< with hidden: true
+    std::vector<NotDone> not_done;      ///< the first few, in world space
 };
 
 struct CleanReport {

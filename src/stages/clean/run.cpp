@@ -1,7 +1,12 @@
 #include "base/text/words.hpp"
 #include "cells/process/clean_cells.hpp"
 #include "cells/process/inspect_cells.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "geometry/hidden/hidden.hpp"
 #include "geometry/normals/unit_vectors.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/face.hpp"
+#include "mesh/transform.hpp"
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
@@ -20,9 +25,49 @@ void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
                  "the report lists the first repairs that failed, with their positions");
 }
 
+/// The faces of each part that no ray from outside reaches; empty without hidden: true.
+class HiddenOfParts {
+  public:
+    HiddenOfParts(const CleanOptions& o, const Scene& scene, Context& context) {
+        if (!o.hidden) return;
+        const double diagonal = scene.bounds().diagonal();
+        const double gap = o.gap ? context.resolve(*o.gap, scene, "gap") : diagonal / 100;
+        if (!(gap > 0)) return; // a single point hides nothing
+        const Surface surface = surface_of(scene, filled_surface);
+        const FaceTree tree(surface, FaceTree::Use::rays);
+        found_ = hidden_faces(surface, tree, scene.face_count(), {.gap = gap});
+        Index first = 0;
+        for (const Part& part : scene.parts) {
+            first_.push_back(first);
+            first += static_cast<Index>(part.mesh.face_count());
+        }
+    }
+
+    /// Removes the hidden faces of the part with this number.
+    std::optional<HiddenCounts> remove(Part& part, std::size_t number) const {
+        if (first_.empty()) return {};
+        HiddenCounts counts{0, 0, found_.outer_rays, found_.face_rays};
+        std::vector<std::uint8_t> gone(part.mesh.face_count());
+        for (Index f = 0; f < gone.size(); ++f) {
+            gone[f] = found_.flags[first_[number] + f];
+            if (!gone[f]) continue;
+            ++counts.faces;
+            counts.area += length(area_vector(part.mesh, f, part.transform)) / 2;
+        }
+        if (counts.faces > 0) part.mesh = keep_faces(part.mesh, faces_without(gone));
+        return counts;
+    }
+
+  private:
+    HiddenFaces found_;
+    std::vector<Index> first_; ///< [parts] number of the first face
+};
+
 Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& report) {
     UntangleBudget budget;
+    const HiddenOfParts hidden(o, scene, context);
     context.for_each_part(scene, [&](Part& part) {
+        const auto removed = hidden.remove(part, static_cast<std::size_t>(&part - scene.parts.data()));
         CleanSettings settings = clean_settings(o, scene, part, context);
         settings.budget = budget;
         CleanResult r = clean(std::move(part.mesh), settings);
@@ -33,7 +78,10 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
         if (o.unit_vectors) r.changes = changes_in_sequence(r.changes, scale_to_unit(part.mesh, scaled));
         context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);
-        report.parts.push_back({part.name, r.counts, scaled, first_not_done(r.not_done, part.transform)});
+        const double stretch = mean_stretch(part.transform);
+        r.counts.component_area *= stretch * stretch;
+        report.parts.push_back(
+            {part.name, r.counts, scaled, removed, first_not_done(r.not_done, part.transform)});
     });
     return scene;
 }
@@ -42,7 +90,8 @@ struct CleanStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override { verify_clean(o, given, problems); }
     /// Removing components loses area on purpose. A union removes the overlap of solids.
     MayLose may_lose() const override {
-        if (o.components || o.inner_components || o.open_components) return MayLose::area;
+        if (o.smaller_than || o.hidden) return MayLose::all;
+        if (o.removes_components()) return MayLose::area;
         const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
         return unites ? MayLose::half : MayLose::tenth;
     }
@@ -52,6 +101,7 @@ struct CleanStage : StageOf<run> {
     }
     void on_cells(CellFlow& flow, Context& context) const override;
     std::optional<std::string> why_not_on_cells() const override {
+        if (o.hidden) return "rays need the whole scene";
         if (o.unit_vectors) return "cells carry no normals and no joint weights";
         return cells::why_not_in_cells(clean_steps_of(o));
     }
@@ -67,7 +117,7 @@ void CleanStage::on_cells(CellFlow& flow, Context& context) const {
     flow.box = cells::box_of_cells(*flow.partition, flow.transform);
     context.attribute_changes(part, r.changes);
     warn(part, r.not_done, context);
-    const CleanReport report{{{part.name, r.counts, 0, first_not_done(r.not_done, part.transform)}}};
+    const CleanReport report{{{part.name, r.counts, 0, {}, first_not_done(r.not_done, part.transform)}}};
     context.report(*info->result, &report);
     warn_of_lost_surface({{part.name, faces, cleaned.area_before}},
                          {{part.name, flow.partition->faces(), cleaned.area_after}}, may_lose(), context);
@@ -80,7 +130,8 @@ const RegisterStage registered = make_stage<CleanStage>(
      .details = help::clean::details,
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",
                   "clean: {self_intersections: union}", "clean: {weld: near, stitch: near, tolerance: 0.01%}",
-                  "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"},
+                  "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}",
+                  "clean: {smaller_than: 2mm, hidden: true}"},
      .lines = LinesPolicy::pass,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_clean, declare_clean_report);

@@ -1,0 +1,25 @@
+#pragma once
+// The help and manual texts of transfer.
+
+namespace facetmill::help::transfer {
+
+inline constexpr const char* about =
+    R"(Takes attributes from another mesh: texture coordinates, colours, skin weights and others.)";
+
+inline constexpr const char* details =
+    R"(Each vertex, corner and face gets the interpolated value at the nearest point of the other mesh.
+Both meshes must be in the same place: use align before if they are not.
+Corners on a seam of the scene get the value of their own side.
+
+Without attributes, everything is taken except normals, tangents, morph targets and materials.
+Take normals with the stage normals.
+Existing attributes of the same name are replaced.
+The attribute distance gets the distance of each vertex from the other mesh, in scene units, as
+evidence: render: {attribute: distance} shows it.
+
+A face that crosses a seam of the other mesh mixes values from both sides.
+W-TRANSFER-SEAMS counts such faces.
+To avoid them, cut the scene along the same seams first.
+Joint numbers are those of the other file, so the scene needs the same skin (W-TRANSFER-SKIN).)";
+
+} // namespace facetmill::help::transfer
