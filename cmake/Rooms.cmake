@@ -2,7 +2,6 @@
 # each header few times and a change recompiles a part of one room. Rooms that would fill less than half a batch are
 # compiled together with those beside them.
 option(FACETMILL_UNITY "Compile the files of a room together" ON)
-set(FACETMILL_BATCH_FACTOR 1 CACHE STRING "Batches of files are this many times as large")
 
 # rooms_in_batches(TARGET ROOT SIZE SOURCES...): batches of about SIZE bytes of source. ROOT/a/b/c.cpp is of the room a_b,
 # which stands beside the room of ROOT/a/d/e.cpp.
@@ -11,7 +10,6 @@ function(rooms_in_batches target root size)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  math(EXPR size "${size} * ${FACETMILL_BATCH_FACTOR}")
   foreach(source IN LISTS ARGN)
     room_of(${source} ${root})
     math(EXPR bytes_of_${room} "0${bytes_of_${room}} + ${bytes}")
