@@ -144,11 +144,11 @@ void Search::measure_images(bool of_normals) {
     const std::size_t longest = first.side > 0 ? first.side : given;
     constexpr std::size_t shortest = 16;
     for (std::size_t side = longest; side >= std::min(shortest, longest) && side > 0; side /= 2) {
-        // Images that are larger than the pictures hardly change them, so one quality shows enough.
+        // Images that are larger than the pictures hardly change them, so two qualities show enough.
         const bool large = side > 2 * static_cast<std::size_t>(o_.pixels);
         bool hope = false;
         for (const int quality :
-             large ? std::vector<int>{finest_quality} : std::vector<int>{finest_quality, 55, 25}) {
+             large ? std::vector<int>{finest_quality, 40} : std::vector<int>{finest_quality, 55, 25}) {
             const ImageChoice choice{side, quality};
             const Scene made = trials_.with_images(scene_, of_normals ? ImageChoice{} : choice,
                                                    of_normals ? choice : ImageChoice{});
