@@ -127,26 +127,29 @@ std::string file_cells(const Summary& summary, const std::string& path, const Ou
         count_cell("pixels", file.pixels));
 }
 
-/// The messages of an asset: the first ones, and the others folded.
-std::string notes_of(const Outcome& out) {
-    constexpr std::size_t most = 3;
-    std::vector<std::string> notes;
-    if (!out.customer.empty()) notes.push_back(fmt::format("<p>{}</p>", escaped(out.customer)));
-    const auto add = [&](const std::vector<Diagnostic>& all, const char* kind) {
-        for (const auto& d : all)
-            notes.push_back(
-                fmt::format("<div class=\"{}\">{}: {}</div>", kind, escaped(d.id), escaped(d.message)));
-    };
-    add(out.errors, "bad");
-    add(out.warnings, "warn");
+/// A message without the asset's name, which its row has.
+std::string message_html(const Asset& asset, const Diagnostic& d, const char* kind) {
+    const std::string name = asset.name + ": ";
+    const std::string message = d.message.starts_with(name) ? d.message.substr(name.size()) : d.message;
+    return fmt::format("<div class=\"{}\">{}: {}</div>", kind, escaped(d.id), escaped(message));
+}
+
+/// The messages of an asset: the errors, and the warnings folded.
+std::string notes_of(const Asset& asset, const Outcome& out) {
+    constexpr std::size_t most = 3; // errors that are not folded
+    std::string html, folded;
+    if (!out.customer.empty()) html += fmt::format("<p>{}</p>", escaped(out.customer));
+    for (std::size_t i = 0; i < out.errors.size(); ++i)
+        (i < most ? html : folded) += message_html(asset, out.errors[i], "bad");
+    for (const auto& warning : out.warnings) folded += message_html(asset, warning, "warn");
     if (const std::string measures = measures_text(out.figures); !measures.empty())
-        notes.push_back(fmt::format("<div class=\"soft\">{}</div>", escaped(measures)));
-    std::string html;
-    for (std::size_t i = 0; i < std::min(most, notes.size()); ++i) html += notes[i];
-    if (notes.size() <= most) return html;
-    html += fmt::format("<details><summary>{} more</summary>", notes.size() - most);
-    for (std::size_t i = most; i < notes.size(); ++i) html += notes[i];
-    return html + "</details>";
+        html += fmt::format("<div class=\"soft\">{}</div>", escaped(measures));
+    if (folded.empty()) return html;
+    std::vector<std::string> counts;
+    if (out.errors.size() > most) counts.push_back(fmt::format("{} more errors", out.errors.size() - most));
+    if (!out.warnings.empty()) counts.push_back(counted(out.warnings.size(), "warning"));
+    return html +
+           fmt::format("<details><summary>{}</summary>{}</details>", join_texts(counts, " and "), folded);
 }
 
 /// The text that the search field looks in.
@@ -188,7 +191,7 @@ class AssetGroups {
                             rows, out.deviation ? percentage(*out.deviation) : "");
         for (std::size_t f = 1; f < out.files.size(); ++f)
             html += fmt::format("<tr>{}</tr>\n", file_cells(summary_, path_, out.files[f]));
-        if (const std::string notes = notes_of(out); !notes.empty())
+        if (const std::string notes = notes_of(asset, out); !notes.empty())
             html += fmt::format("<tr><td></td><td class=\"notes\" colspan=\"7\">{}</td></tr>\n", notes);
         return html + "</tbody>\n";
     }
@@ -252,7 +255,7 @@ std::string form_html(const Summary& summary) {
         verdicts, keys);
 }
 
-std::string cause_rows(const Summary& summary) {
+std::string causes_html(const Summary& summary) {
     std::string rows;
     for (const Cause& cause : causes_of(summary))
         rows += fmt::format(
@@ -261,7 +264,7 @@ std::string cause_rows(const Summary& summary) {
                              cause.severity == Severity::error ? "bad" : "warn", escaped(name_of(cause)))),
             number_cell(grouped(cause.assets)), cell(report::path_code(cause.first_asset)),
             escaped(cause.first_message));
-    return rows;
+    return report::table("Causes", report::heads({"cause", "#assets", "first asset", "its message"}), rows);
 }
 
 } // namespace
@@ -273,9 +276,7 @@ std::string to_html(const Summary& summary, const std::string& path) {
         title_of(summary),
         fmt::format("{}, pipeline {}", counted(summary.assets.size(), "asset"), summary.pipeline));
     page += fmt::format("<p class=\"verdict {}\">{}</p>\n", good ? "good" : "bad", verdict_line(summary));
-    page += report::table("Causes", report::heads({"cause", "#assets", "first asset", "its message"}),
-                          cause_rows(summary));
-    if (summary.assets.empty()) return page + report::html_end();
+    if (summary.assets.empty()) return page + causes_html(summary) + report::html_end();
     auto order = worst_first(summary);
     const std::size_t left_out =
         summary.by_cause && order.size() > most_by_cause ? order.size() - most_by_cause : 0;
@@ -288,7 +289,7 @@ std::string to_html(const Summary& summary, const std::string& path) {
     page += "</table></div>\n";
     if (left_out > 0)
         page += fmt::format("<p class=\"soft\">{} more assets are left out.</p>\n", grouped(left_out));
-    return page + script + report::html_end();
+    return page + causes_html(summary) + script + report::html_end();
 }
 
 } // namespace facetmill::batch

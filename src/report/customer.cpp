@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace facetmill::report {
@@ -58,6 +59,12 @@ constexpr std::string_view ask_for_gap =
 constexpr std::string_view ask_for_export = "Please export it again, and send the new file.";
 constexpr std::string_view ask_for_normals =
     "Please make all normals face outward in your modelling program, and send the file again.";
+
+/// About a file that has more defects than the scene: rounding has merged or crossed surfaces.
+constexpr std::string_view too_close_text =
+    "Parts of the model touch only at edges or points, or are closer together than the file format can "
+    "store. Please "
+    "leave a small gap there, or let the parts overlap, and send the file again.";
 
 constexpr FailedProperty failed_properties[] = {
     {"oriented",
@@ -148,14 +155,28 @@ class Repairs {
     std::vector<std::pair<std::string, std::string>> not_done_; ///< steps and reasons
 };
 
+/// A measured value of the model, if it was measured.
+std::optional<double> measured(const RunRecord& record, std::string_view name) {
+    const auto columns = model_columns();
+    for (std::size_t i = 0; i < std::min(columns.size(), record.model.values.size()); ++i)
+        if (columns[i].name == name) return record.model.values[i];
+    return {};
+}
+
+/// Whether no two triangles of the model are connected.
+bool is_loose(const RunRecord& record) {
+    const auto components = measured(record, "components"), triangles = measured(record, "triangles");
+    return components && triangles && *components > 1 && *components == *triangles;
+}
+
 /// The text about a surface that is not closed.
-std::string open_text(const Check& check, const Repairs& repairs) {
+std::string open_text(const Check& check, const RunRecord& record, const Repairs& repairs) {
     const auto why = repairs.obstacles_of("holes");
     const auto all_are = [&](std::string_view reason) {
         return !why.empty() &&
                std::all_of(why.begin(), why.end(), [&](const auto& w) { return w.find(reason) != w.npos; });
     };
-    if (all_are("single face"))
+    if (all_are("single face") || is_loose(record))
         return "The model consists of loose triangles that are not connected, so it encloses no space. "
                "Please "
                "join them to a closed surface, and send the file again.";
@@ -176,10 +197,9 @@ std::string open_text(const Check& check, const Repairs& repairs) {
                        loops > 1 ? "them" : "it");
 }
 
-std::string with_unit(const std::string& number, const RunRecord& record, const char* power = "") {
+std::string with_unit(const std::string& number, const RunRecord& record) {
     const std::string& unit = record.model.unit;
-    return unit.empty() || unit == to_string(Unit::unknown) ? number
-                                                            : fmt::format("{} {}{}", number, unit, power);
+    return unit.empty() || unit == to_string(Unit::unknown) ? number : fmt::format("{} {}", number, unit);
 }
 
 std::string number_text(const Check& check) {
@@ -194,6 +214,9 @@ std::string words_of(std::string name) {
     return name;
 }
 
+/// What must hold, without the value in scene units in parentheses.
+std::string required(const Check& check) { return check.expected.substr(0, check.expected.find(" (")); }
+
 /// The text about a size that is out of its limits.
 std::string size_text(const Check& check, const RunRecord& record) {
     const std::string found = number_text(check);
@@ -201,17 +224,17 @@ std::string size_text(const Check& check, const RunRecord& record) {
         return fmt::format(
             "The thinnest wall is {} thick{}. It must be {}. Please make thin walls thicker, and "
             "send the file again.",
-            with_unit(found, record), near(check), check.expected);
+            with_unit(found, record), near(check), required(check));
     if (check.name == "max_extent")
         return fmt::format(
             "The longest side of the model is {}. It must be {}. Please scale the model, or cut "
             "it into parts, and send the file again.",
-            with_unit(found, record), check.expected);
+            with_unit(found, record), required(check));
     if (check.name == "bounds")
         return fmt::format(
             "The model is too large or in the wrong place: its corners are at {}. They must be "
             "{}. Please scale or move the model, and send the file again.",
-            found, check.expected);
+            found, required(check));
     if (check.name == "faces" && found == "0")
         return record.stages.empty() || !record.stages.front().after ||
                        record.stages.front().after->faces == 0
@@ -224,17 +247,15 @@ std::string size_text(const Check& check, const RunRecord& record) {
     return fmt::format(
         "The value '{}' of the model is {}{}. It must be {}. Please change the model, and send "
         "the file again.",
-        words_of(check.name), found, near(check), check.expected);
+        words_of(check.name), found, near(check), required(check));
 }
 
 std::string check_text(const Check& check, const RunRecord& record, const Repairs& repairs) {
-    if (is_of_openness(check)) return open_text(check, repairs);
+    if (is_of_openness(check)) return open_text(check, record, repairs);
     for (const FailedProperty& row : failed_properties) {
         if (row.property != check.name) continue;
+        if (!check.file.empty()) return std::string(too_close_text);
         const std::string what = fmt::format(fmt::runtime(row.what), near(check));
-        if (!check.file.empty())
-            return fmt::format("{} The surfaces are closer together than the file format can store. {}", what,
-                               row.ask);
         return fmt::format("{} {} {}", what, repairs.why_not("mend this", row.step), row.ask);
     }
     return size_text(check, record);
@@ -245,54 +266,60 @@ constexpr std::string_view one_sided_text =
     "change "
     "this. Please give the surface a thickness, and send the file again.";
 
+constexpr std::string_view unknown_format = "We cannot read this kind of file. Please export the model as "
+                                            "STL, 3MF, OBJ, PLY or glTF, and send the new "
+                                            "file.";
+
+/// The name of a missing file that the model refers to: from 'buffers[0].uri: the file "a/b.bin" is missing'.
+std::string missing_file(const std::string& message) {
+    constexpr std::string_view before = "the file \"";
+    const auto at = message.find(before);
+    if (at == message.npos || message.find(" is missing", at) == message.npos) return {};
+    const std::string path = message.substr(at + before.size());
+    return std::filesystem::path(path.substr(0, path.find('"'))).filename().string();
+}
+
 constexpr std::string_view our_fault = "We could not process the model because of a problem on our side. "
                                        "Your file may be fine. We will look into it.";
 
-/// Texts about ids that say more than the kind of the error.
+/// Texts about errors that say more than their kind, by their ids without the first letter.
 constexpr Plain reasons[] = {
-    {"E-EMPTY",
+    {"EMPTY",
      "The file has no surface: it contains no faces. Please export the model as a mesh, and send the "
      "file again."},
-    {"E-NAN",
-     "The file has coordinates that are not numbers. Please export the model again, and send the new "
-     "file."},
-    {"E-INDEX",
-     "The file is damaged: a face refers to a corner that the file does not have. Please export the "
-     "model again, and send the new file."},
-    {"E-FACE", "The file is damaged: a face has too few corners, or the same corner twice. Please export the "
-               "model again, and send the new file."},
-    {"E-URI", "The file refers to another file that we did not receive. Please send all files of the model "
-              "together, or export a single file (.glb, .3mf or .stl)."},
-    {"E-FILE", "We did not receive the file, or a file that it refers to. Please send all files of the model "
-               "together."},
-    {"E-PERMISSION", "We could not open the file. Please send it again."},
-    {"E-ASSET-ROOT",
+    {"NAN", "The file has coordinates that are not numbers. Please export the model again, and send the new "
+            "file."},
+    {"INDEX", "The file is damaged: a face refers to a corner that the file does not have. Please export the "
+              "model again, and send the new file."},
+    {"FACE", "The file is damaged: a face has too few corners, or the same corner twice. Please export the "
+             "model again, and send the new file."},
+    {"URI", "The file refers to another file that we did not receive. Please send all files of the model "
+            "together, or export a single file (.glb, .3mf or .stl)."},
+    {"FILE", "We did not receive the file, or a file that it refers to. Please send all files of the model "
+             "together."},
+    {"PERMISSION", "We could not open the file. Please send it again."},
+    {"ASSET-ROOT",
      "The file refers to files outside its own folder. Please send all files of the model in one "
      "folder."},
-    {"E-FORMAT-VERSION",
-     "The file has a version of its format that we cannot read. Please export the model as "
-     "STL, 3MF, OBJ, PLY or glTF, and send the new file."},
-    {"E-FORMAT",
-     "We cannot read this kind of file. Please export the model as STL, 3MF, OBJ, PLY or glTF, and "
-     "send the new file."},
-    {"E-EXTENSION",
+    {"FORMAT-VERSION", "The file has a version of its format that we cannot read. Please export the model as "
+                       "STL, 3MF, OBJ, PLY or glTF, and send the new file."},
+    {"EXTENSION",
      "The file uses an extension of its format that we cannot read. Please export the model without "
      "it, and send the new file."},
-    {"E-ENCODING",
+    {"ENCODING",
      "The file is text in an encoding that we cannot read. Please save it as UTF-8, and send the new "
      "file."},
-    {"E-TIME",
+    {"TIME",
      "The model takes longer to process than our limit. Please reduce its number of triangles, and send "
      "the file again."},
-    {"E-MEMORY",
+    {"MEMORY",
      "The model is too large for us to process. Please reduce its number of triangles, and send the "
      "file again."},
-    {"E-EXPANSION", "The compressed file becomes larger than our limit. Please send it without compression."},
-    {"E-LIMIT",
-     "The model is too large for us to process. Please reduce its number of triangles, and send the "
-     "file again."},
-    {"E-UNIT", "The file does not state its unit of length. Please tell us the unit: mm, cm, m or inches."},
-    {"E-SPACE", our_fault},
+    {"EXPANSION", "The compressed file becomes larger than our limit. Please send it without compression."},
+    {"LIMIT", "The model is too large for us to process. Please reduce its number of triangles, and send the "
+              "file again."},
+    {"UNIT", "The file does not state its unit of length. Please tell us the unit: mm, cm, m or inches."},
+    {"SPACE", our_fault},
 };
 
 std::string kind_text(ErrorKind kind) {
@@ -334,8 +361,12 @@ std::vector<std::string> failed_checks(const RunRecord& record) {
     const auto is_of_sides = [](const Check& check) {
         return is_of_openness(check) || check.name == "oriented" || check.name == "outward_oriented";
     };
+    for (const Check& check : record.checks)
+        if (check.name == "faces" && !check.passed && found_text(check) == "0")
+            return {size_text(check, record)}; // everything else follows from it
     for (const Check& check : record.checks) {
         if (check.passed || check.severity != Severity::error) continue;
+        if (std::holds_alternative<std::monostate>(check.found) && !is_of_openness(check)) continue;
         if (repairs.one_sided() && is_of_sides(check)) {
             add_once(texts, std::string(one_sided_text));
         } else if (!is_of_openness(check) || !std::exchange(open, true)) {
@@ -348,12 +379,20 @@ std::vector<std::string> failed_checks(const RunRecord& record) {
 } // namespace
 
 std::string customer_text(const Diagnostic& error, ErrorKind kind) {
-    if (error.id == "E-STRICT" && error.message.find("W-UNITS") != error.message.npos)
+    const std::string id = error.id.starts_with("E-") ? error.id.substr(2) : error.id;
+    if (id == "STRICT" && error.message.find("-UNITS ") != error.message.npos)
         return std::string(ask_for_unit);
+    if (id == "FORMAT") return std::string(unknown_format);
+    if (id == "FILE")
+        if (const std::string file = missing_file(error.message); !file.empty())
+            return fmt::format(
+                "The file refers to '{}', which we did not receive. Please send all files of the "
+                "model together, or export a single file (.glb, .3mf or .stl).",
+                file);
     const bool may_be_the_file =
         kind != ErrorKind::usage && kind != ErrorKind::output && kind != ErrorKind::bug;
     for (const Plain& row : reasons)
-        if (may_be_the_file && row.technical == error.id) return std::string(row.plain);
+        if (may_be_the_file && row.technical == id) return std::string(row.plain);
     return kind_text(kind);
 }
 

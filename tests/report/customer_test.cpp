@@ -82,6 +82,20 @@ TEST_CASE("the cause stands for its consequences", "[customer]") {
     CHECK(text.find("hole") == text.npos);
 }
 
+TEST_CASE("a customer reads which file is missing, and that a file has no faces", "[customer]") {
+    const Diagnostic missing{
+        Severity::error, "E-FILE", "buffers[0].uri: the file \"in/a b.bin\" is missing", {}, ""};
+    CHECK(customer_text(missing, ErrorKind::missing)
+              .starts_with("The file refers to 'a b.bin', which we did not"));
+    RunRecord record = failed_at("faces", std::int64_t{0});
+    Check other = record.checks[0];
+    other.name = "wall_thickness";
+    other.found = {};
+    record.checks.push_back(other);
+    CHECK(customer_text(record).starts_with("The file has no surface"));
+    CHECK(customer_text(record).find("wall") == std::string::npos);
+}
+
 TEST_CASE("every property and every error has a text in plain words", "[customer]") {
     for (const Property& property : property_table())
         for (const bool repaired : {false, true}) {
