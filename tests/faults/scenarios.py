@@ -112,7 +112,7 @@ def scenarios():
 STAGES = {
     "clean": "clean", "clip": "clip z=50% --cap", "crop": "crop [[0.2,0.2],[0.8,0.2],[0.8,0.8]]",
     "crumple": "crumple 1%", "ensure": "ensure --closed", "measure": "measure", "merge": "merge",
-    "optimize": "optimize", "orient": "orient",
+    "nest": "nest 100", "optimize": "optimize", "orient": "orient",
     "probe": "probe [0.5,0.5,0.5]", "relax": "relax 2", "section": "section z=50% --path cut.svg",
     "separate": "separate", "simplify": "simplify 50%", "split": "split midpoint", "thicken": "thicken 5%",
     "tile": "tile 0.6", "transform": "transform --scale 2", "triangulate": "triangulate", "two-sided": "two-sided",
