@@ -1,5 +1,7 @@
 #include "docs/ready.hpp"
 
+#include "pipeline/built_in.hpp"
+
 namespace facetmill::docs {
 
 const ReadyPipeline* ready_pipeline(std::string_view name) {
@@ -14,5 +16,14 @@ std::vector<std::string> ready_names() {
     for (const auto& ready : ready_pipelines()) names.emplace_back(ready.name);
     return names;
 }
+
+namespace {
+
+const pipeline::RegisterBuiltInPipelines registered([](std::string_view name) {
+    const ReadyPipeline* ready = ready_pipeline(name);
+    return ready ? ready->text : std::string_view();
+});
+
+} // namespace
 
 } // namespace facetmill::docs

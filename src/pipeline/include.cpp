@@ -1,6 +1,7 @@
 // Plans an item `include`: the stages of another file, with its own params.
 
 #include "io/bytes.hpp"
+#include "pipeline/built_in.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/planner.hpp"
@@ -43,18 +44,23 @@ void rebase_given(const Value& document, const Value& item, const fs::path& pref
 
 } // namespace
 
-const Value* Planner::fragment(const fs::path& file, const Mark& where) {
-    if (const auto known = fragments_.find(file); known != fragments_.end()) return &known->second;
+std::shared_ptr<const SourceText> Planner::text_of(const fs::path& file, const Mark& where) {
     included_.push_back({file, where, false, {}, true});
     if (settings_.on_include) settings_.on_include(file);
-    std::shared_ptr<const SourceText> source;
     try {
         const auto input = io::Input::open(file);
-        source = std::make_shared<const SourceText>(
+        return std::make_shared<const SourceText>(
             SourceText{file.string(), std::string(io::as_text(input.bytes()))});
     } catch (Error& e) {
         throw e.at(where);
     }
+}
+
+const Value* Planner::fragment(const fs::path& file, const Mark& where, std::string_view built_in) {
+    if (const auto known = fragments_.find(file); known != fragments_.end()) return &known->second;
+    auto source = built_in.empty()
+                      ? text_of(file, where)
+                      : std::make_shared<const SourceText>(SourceText{file.string(), std::string(built_in)});
     Problems found;
     Value document = parse_yaml(std::move(source), found);
     for (const auto& d : found.all()) problems_.add(d.where, d.id, d.message, d.hint);
@@ -66,7 +72,11 @@ const Value* Planner::fragment(const fs::path& file, const Mark& where) {
                       "facetmill: 1\n    stages:\n      - relax: 3");
         return nullptr;
     }
-    check_head(document, {"facetmill", "requires", "about", "params", "stages"}, problems_);
+    std::vector<std::string> keys{"facetmill", "requires", "about", "params", "stages"};
+    if (!built_in.empty()) // the including pipeline has its own
+        for (const char* key : {"report", "allow"}) keys.emplace_back(key);
+    check_head(document, keys, problems_);
+    if (!built_in.empty()) return &fragments_.emplace(file, std::move(document)).first->second;
     rebase_inputs(document, file.parent_path(), settings_.places.input_base, RunTimePaths::kept);
     return &fragments_.emplace(file, std::move(document)).first->second;
 }
@@ -108,18 +118,20 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
         has_scene = true; // the included file may load a scene, so do not report missing scenes
         return {};
     }
-    const fs::path file = settings_.places.input(text.text).lexically_normal();
+    fs::path file = settings_.places.input(text.text).lexically_normal();
+    const std::string_view built_in = fs::is_regular_file(file) ? "" : built_in_pipeline(text.text);
+    if (!built_in.empty()) file = text.text;
     if (!may_include(file, path.mark)) {
         has_scene = true; // its effect is unknown
         return {};
     }
-    const Value* document = fragment(file, path.mark);
+    const Value* document = fragment(file, path.mark, built_in);
     if (!document) {
         has_scene = true;
         return {};
     }
     Value given = given_values(item, scope, problems_);
-    if (!open_.empty())
+    if (!open_.empty() && built_in.empty())
         rebase_given(*document, item, way(settings_.places.input_base, open_.back().parent_path()), given);
     const Scope own = fragment_params(*document, given, settings_, problems_);
     const Value* stages = document->find("stages");

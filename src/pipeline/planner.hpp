@@ -75,9 +75,10 @@ class Planner {
     std::vector<std::filesystem::path> chain_to(const std::filesystem::path& file) const;
     /// Returns false, after a problem, if including would be recursive, or nested too deeply.
     bool may_include(const std::filesystem::path& file, const Mark& where);
-    /// The document in a file, with paths relative to the pipeline's folder; null after a problem. Throws a
-    /// missing-file error.
-    const Value* fragment(const std::filesystem::path& file, const Mark& where);
+    /// The document in a file, with paths relative to the pipeline's folder, or the text of a built-in
+    /// pipeline; null after a problem. Throws a missing-file error.
+    const Value* fragment(const std::filesystem::path& file, const Mark& where, std::string_view built_in);
+    std::shared_ptr<const SourceText> text_of(const std::filesystem::path& file, const Mark& where);
     std::string unique_name(const std::string& base, const std::string& prefix, const Mark& explicit_at);
 
     const PlanSettings& settings_;

@@ -80,7 +80,7 @@ constexpr auto columns_only = [] {
 
 std::size_t up_axis(const Scene& scene) { return scene.up == UpAxis::y ? 1 : 2; }
 
-std::uint64_t triangles_of(const Mesh& mesh) {
+std::uint64_t triangle_count_of(const Mesh& mesh) {
     std::uint64_t count = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const auto corners = static_cast<std::uint64_t>(mesh.face_end(f) - mesh.face_begin(f));
@@ -154,7 +154,7 @@ void add_parts(ModelFacts& facts, const Scene& scene, std::span<const Part> part
     facts.height = box.max[plate.axis] - box.min[plate.axis];
     for (const Part& part : parts) {
         facts.overhang_area += overhang_of(part, plate);
-        facts.triangles += triangles_of(part.mesh);
+        facts.triangles += triangle_count_of(part.mesh);
     }
 }
 

@@ -20,6 +20,7 @@
 #include "io/gltf/read/lines.hpp"
 #include "io/gltf/read/mesh.hpp"
 #include "io/gltf/read/second_reader.hpp"
+#include "io/gltf/write/join_documents.hpp"
 #include "io/gltf/write/patch.hpp"
 #include "io/images/image_files.hpp"
 #include "io/write_options.hpp"
@@ -431,25 +432,26 @@ bool has_other_metadata(const Json& asset, const Json& other) {
     });
 }
 
-/// Warns that only the meshes and materials of another document are written.
-void warn_of_losses(Patch& patch, const std::string& name, const Json& other) {
+/// Warns that only the meshes and materials of another document are written, unless it was joined.
+void warn_of_losses(Patch& patch, const std::string& name, const Json& other, bool joined) {
     std::vector<std::string> lost;
     for (const char* list : {"animations", "skins", "cameras", "extensions"})
-        if (other.contains(list) && !other[list].empty()) lost.push_back(list);
+        if (!joined && other.contains(list) && !other[list].empty()) lost.push_back(list);
     if (has_other_metadata(patch.builder.json()["asset"], other)) lost.emplace_back("metadata");
     if (!lost.empty())
         patch.warn("W-MERGED",
-                   fmt::format("only the meshes and materials of '{}' are written, without its {}", name,
+                   fmt::format("{} of '{}' are written, without its {}",
+                               joined ? "the contents" : "only the meshes and materials", name,
                                fmt::join(lost, ", ")),
                    fmt::format("load '{}' alone, and write it to a separate file to keep them", name));
 }
 
-void merge_other_documents(Patch& patch) {
+void merge_other_documents(Patch& patch, const std::set<int>& joined) {
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
         if (static_cast<int>(d) == patch.base) continue;
         const Json other = parse_document(patch.scene.documents[d]->json);
         keep_asset(patch.builder.json()["asset"], other);
-        warn_of_losses(patch, patch.scene.documents[d]->name, other);
+        warn_of_losses(patch, patch.scene.documents[d]->name, other, joined.contains(static_cast<int>(d)));
     }
 }
 
@@ -502,8 +504,11 @@ std::optional<Scene> fitted_scene(const Scene& given, Written& written) {
 Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Written written;
     const auto fitted = fitted_scene(given, written);
-    const Scene& scene = fitted ? *fitted : given;
-    BaseDocument found = base_document(scene);
+    const Scene& fitting = fitted ? *fitted : given;
+    BaseDocument found = base_document(fitting);
+    const auto joined = join_documents(fitting, found);
+    const Scene& scene = joined ? joined->scene : fitting;
+    if (joined) found.json = joined->json;
     const int base = found.index;
     const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
     const auto data_extras =
@@ -531,13 +536,15 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     steps.next();
     builder.compress(settings.meshopt);
     drop_unused_extensions(builder);
-    merge_other_documents(patch);
+    merge_other_documents(patch, joined ? joined->joined : std::set<int>());
     warn_of_dropped(written, scene, "glTF");
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
     const Textures textures = settings.textures != Textures::automatic ? settings.textures
                               : binary                                 ? Textures::embed
                                                                        : Textures::copy;
-    auto images = place_images(patch, stored.images, stem, textures);
+    ImageOwners owners = stored.images;
+    if (joined) owners.insert(joined->images.begin(), joined->images.end());
+    auto images = place_images(patch, owners, stem, textures);
     const bool shortens = settings.draco.on || settings.quantize.on || settings.meshopt.on;
     const auto worlds =
         shortens ? largest_worlds(builder.current(), node_frames(builder.json())) : std::vector<Transform>();

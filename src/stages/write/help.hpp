@@ -29,7 +29,8 @@ W-TEXTURES and W-MTL list material properties that MTL cannot store, and W-ATTRI
 attributes that OBJ cannot store.
 
 PLY, OBJ, OFF, glTF and Draco store points.
-PLY, OBJ and glTF store lines, uncompressed.
+PLY, OBJ and glTF store lines.
+In glTF, meshopt compresses points and lines, and Draco does not.
 Other formats store only the faces.
 
 A path that ends in tileset.json, or tiles: 3d, writes 3D Tiles.

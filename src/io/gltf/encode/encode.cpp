@@ -349,11 +349,14 @@ void add_arrays(Builder& builder, const Mesh& mesh, const Table& table, const st
     primitive["indices"] = add_indices(builder, table);
 }
 
-/// A primitive with all wedges as points.
+/// A primitive with all wedges as points. Orders for compression put points next to their neighbours.
 Json points_primitive(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
                       const EncodeSettings& settings, Written& written) {
     Table table;
-    for (Index w = 0; w < mesh.wedge_count(); ++w) table.wedges.push_back(w);
+    if (orders_points(settings.order) && !keeps_order(mesh, settings))
+        table.wedges = points_along_curve(mesh);
+    else
+        for (Index w = 0; w < mesh.wedge_count(); ++w) table.wedges.push_back(w);
     Json primitive = primitive_frame(mesh, 0, settings, builder, written);
     constexpr int points = 0;
     primitive["mode"] = points;

@@ -357,4 +357,14 @@ void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder
     }
 }
 
+bool orders_points(TriangleOrder order) {
+    return order == TriangleOrder::size || order == TriangleOrder::strips;
+}
+
+std::vector<Index> points_along_curve(const Mesh& mesh) {
+    return order_along_curve(mesh.wedge_count(), mesh.bounds(), [&](std::size_t w) {
+        return mesh.positions[mesh.vertex_of_wedge(static_cast<Index>(w))];
+    });
+}
+
 } // namespace facetmill::io::gltf

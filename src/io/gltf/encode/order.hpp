@@ -16,4 +16,9 @@ namespace facetmill::io::gltf {
 void order_triangles(const Mesh& mesh, std::vector<Table>& tables, TriangleOrder order, bool shared,
                      VertexCacheUse& use);
 
+/// True for orders that make meshopt's streams small.
+[[nodiscard]] bool orders_points(TriangleOrder order);
+/// The wedges of a cloud along a space-filling curve: neighbours then differ by little.
+[[nodiscard]] std::vector<Index> points_along_curve(const Mesh& mesh);
+
 } // namespace facetmill::io::gltf

@@ -33,21 +33,30 @@ bool has_meshopt(const Json& document, const Json& accessor) {
            compression_of(document["bufferViews"][a["bufferView"].get<std::size_t>()]);
 }
 
-/// True if meshopt can compress the triangles well: in a suitable order, with separate attributes.
+/// True if meshopt can compress the triangles or points well: in a suitable order, with separate attributes.
 bool ready_for_meshopt(const Json& document, const Json& primitive) {
-    return primitive.contains("indices") && has_meshopt(document, primitive["indices"]) &&
-           has_meshopt(document, primitive["attributes"]["POSITION"]);
+    const bool in_order = kind_of(JsonCursor(primitive, "")) == Drawn::points ||
+                          (primitive.contains("indices") && has_meshopt(document, primitive["indices"]));
+    return in_order && has_meshopt(document, primitive["attributes"]["POSITION"]);
+}
+
+/// True if the mesh or one of its primitives has extensions.
+bool is_extended(const Json& mesh) {
+    const auto extended = [](const Json& object) { return object.contains("extensions"); };
+    return extended(mesh) || std::any_of(mesh["primitives"].begin(), mesh["primitives"].end(), extended);
 }
 
 /// True if the primitives in the document already satisfy the settings.
 bool stored_as_wanted(const Patch& patch, const Json& mesh) {
     const TriangleOrder order = patch.settings.order;
     const bool stays = order == TriangleOrder::automatic || order == TriangleOrder::keep;
+    const bool points = kind_of_mesh(JsonCursor(mesh, "")) == Drawn::points && !is_extended(mesh);
     for (const auto& primitive : mesh["primitives"]) {
         const bool triangles = makes_triangles(JsonCursor(primitive, ""));
         if (triangles && !stays) return false;
         if (triangles && has_draco(primitive) != patch.settings.draco.on) return false;
-        if (triangles && patch.settings.meshopt.on && !ready_for_meshopt(patch.builder.json(), primitive))
+        if ((triangles || points) && patch.settings.meshopt.on &&
+            !ready_for_meshopt(patch.builder.json(), primitive))
             return false;
     }
     const bool manifold = mesh.contains("extensions") && mesh["extensions"].contains("EXT_mesh_manifold");
@@ -69,10 +78,7 @@ bool uses_all_wedges(const Mesh& mesh) {
 bool has_excess(const Patch& patch, const Json& json, const Mesh& mesh) {
     const WriteSettings& s = patch.settings;
     if (!s.draco.on && !s.quantize.on && !s.meshopt.on) return false;
-    const auto extended = [](const Json& object) { return object.contains("extensions"); };
-    if (extended(json) || std::any_of(json["primitives"].begin(), json["primitives"].end(), extended))
-        return false;
-    return !uses_all_wedges(mesh);
+    return !is_extended(json) && !uses_all_wedges(mesh);
 }
 
 bool is_original(Patch& patch, const Part& part) {

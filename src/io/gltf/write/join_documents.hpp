@@ -1,0 +1,24 @@
+#pragma once
+// Several glTF documents as one, with everything that they have.
+
+#include "io/gltf/write/patch.hpp"
+
+#include <set>
+
+namespace facetmill::io::gltf {
+
+/// A scene whose parts are in its base document, to which other documents were appended.
+struct JoinedDocuments {
+    Scene scene;
+    Json json;              ///< of the base document
+    ImageOwners images{};   ///< the documents of appended images
+    std::set<int> joined{}; ///< the appended documents
+};
+
+/// Appends the other glTF documents of a scene to its base document: nodes, skins, animations, variants,
+/// cameras, lights and all the rest. Variants of equal names become one. Documents stay apart if their
+/// extensions may refer to items in an unknown way, or if stages took all their meshes. None if nothing was
+/// joined.
+[[nodiscard]] std::optional<JoinedDocuments> join_documents(const Scene& scene, const BaseDocument& base);
+
+} // namespace facetmill::io::gltf
