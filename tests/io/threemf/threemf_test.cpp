@@ -9,6 +9,7 @@
 #include "support/colours.hpp"
 #include "support/failure.hpp"
 #include "support/mutations.hpp"
+#include "support/temporary.hpp"
 
 #include <fmt/format.h>
 
