@@ -10,7 +10,6 @@
 
 using namespace facetmill;
 using namespace facetmill::test;
-using namespace facetmill::fit_stage;
 
 namespace {
 
@@ -143,26 +142,26 @@ TEST_CASE("fit refuses a missing, empty or ambiguous target, and other formats",
 }
 
 TEST_CASE("The model finds the best choice of the measured curves", "[stages]") {
-    Curves curves;
+    fit_stage::Curves curves;
     curves.ratios = {{1, {1000, 0}}, {0.5, {500, 0.01}}, {0.25, {250, 0.04}}};
     curves.position = {{16, 0, 0}, {10, 0.2, 0.001}};
     curves.normal = {{12, 0, 0}};
     curves.uv = {{14, 0, 0}};
     curves.colours = {{{}, {600, 0}}, {{256, 80}, {500, 0.0001}}};
     curves.normals = {{{}, {0, 0}}};
-    const Model model(curves, 1);
+    const fit_stage::Model model(curves, 1);
     const auto whole = model.best_within(1600);
     REQUIRE(whole);
-    CHECK(*whole == Choice{});
+    CHECK(*whole == fit_stage::Choice{});
     const auto near = model.best_within(1500); // smaller images change least
     REQUIRE(near);
-    CHECK(near->colours == ImageChoice{256, 80});
+    CHECK(near->colours == fit_stage::ImageChoice{256, 80});
     CHECK(near->keep == 1);
     CHECK(near->bits.position == 16);
     CHECK_FALSE(model.best_within(650));
     CHECK(model.smallest().keep == 0.25);
     const auto alike = model.smallest_within(0.0005);
     REQUIRE(alike);
-    CHECK(alike->colours == ImageChoice{256, 80});
+    CHECK(alike->colours == fit_stage::ImageChoice{256, 80});
     CHECK_FALSE(model.smallest_within(-1));
 }
