@@ -1,6 +1,7 @@
 #include "parallel/parallel.hpp"
 
 #include "base/progress.hpp"
+#include "parallel/loop_check.hpp"
 #include "platform/cores.hpp"
 
 #include <atomic>
@@ -16,6 +17,9 @@
 namespace facetmill {
 
 namespace {
+
+/// The check of this thread's loops, or null.
+thread_local const std::function<void()>* loop_check = nullptr;
 
 /// Never destroyed: TBB may need a thread for the destruction, and a failure at the end of the process could
 /// not be reported.
@@ -65,7 +69,9 @@ int threads() { return count > 0 ? count : tbb::info::default_concurrency(); }
 
 void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*, std::size_t, std::size_t)) {
     const std::size_t chunks = (n + chunk - 1) / chunk;
+    const auto* const check = loop_check;
     if (chunks <= 1) {
+        if (check) (*check)();
         if (n > 0) call(body, 0, n);
         return;
     }
@@ -78,11 +84,13 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
         };
         is_in_narrow_arena() ? wide->execute(loop) : loop();
     };
-    const auto work = [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); };
+    const auto caller = std::this_thread::get_id();
+    const auto work = [&](std::size_t c) {
+        if (check && std::this_thread::get_id() == caller) (*check)();
+        call(body, c * chunk, std::min(n, (c + 1) * chunk));
+    };
     const ProgressScope::Range place = ProgressScope::of_loop();
-    if (!place.to) return run(work);
-    const auto caller =
-        std::this_thread::get_id(); // only the calling thread reports, so progress never falls
+    if (!place.to) return run(work); // otherwise only the caller reports, so progress never falls
     std::atomic<std::size_t> done = 0;
     {
         const ProgressScope silent(nullptr); // silences progress reports of the chunks
@@ -95,6 +103,11 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
     }
     place.report(1);
 }
+
+LoopCheck::LoopCheck(std::function<void()> check)
+    : check_(std::move(check)), before_(std::exchange(loop_check, &check_)) {}
+
+LoopCheck::~LoopCheck() { loop_check = before_; }
 
 void sort_few(std::span<KeyedPlace> places) {
     std::sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
