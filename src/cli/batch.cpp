@@ -37,6 +37,8 @@ Examples
   facetmill batch scan-to-web --input 'scans/**/*.ply' -D keep=10% --output-dir web
   find scans -name '*.ply' -print0 | facetmill batch scan.yaml --inputs-from - -o web --keep-going
   facetmill batch scan.yaml --table params.csv -o web --report index.html --report batch.json
+  facetmill batch repair --input 'orders/*.{stl,3mf}' -o checked -k --table-out quotes.csv
+  tar c orders | facetmill batch repair --archive - -o checked -k --archive-out - > repaired.tar
   facetmill batch scan.yaml --input 'scans/**/*.ply' -o web --prune      (removes outputs whose input no longer exists)
 )";
 
@@ -50,6 +52,41 @@ struct BatchOptions : AssetOptions {
     std::string time_limit;          ///< as given
 };
 
+/// The options of reports, tables and archives.
+void add_result_options(Arguments& arguments, BatchOptions& options) {
+    arguments.add("--report", &options.common.reports,
+                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.\n- writes JSON to "
+                  "standard output.");
+    arguments.add(
+        "--time-limit", &options.time_limit,
+        "The time for each asset: 30s, 500ms, 5min or 1h. An asset that takes longer fails (E-TIME)\nand "
+        "writes nothing. A stage stops at its next parallel loop or progress report.");
+    arguments.add("--table-out", &options.tables,
+                  "Also measures each model, and writes a row per asset, rejected ones too: F.csv or "
+                  "F.jsonl.\nTexts that spreadsheets would run as formulas begin with an apostrophe.");
+    arguments
+        .add("--overhang-angle", &options.overhang_angle,
+             "The slope in degrees below which faces count as overhangs in --table-out. Default: 45.")
+        .not_negative();
+    arguments
+        .add("--summary", &options.summary,
+             "by-asset lists every asset. by-id groups errors and warnings by id, on the terminal in "
+             "at\nmost ten lines. Reports then list no assets; --table-out does.")
+        .one_of({"by-asset", "by-id"});
+    arguments.add("--pictures", &options.pictures,
+                  "Also writes a picture of each asset as PNG into this folder below the output "
+                  "folder.\nF.md shows them.");
+    arguments.add("--link-base", &options.link_base,
+                  "The address under which the output folder is published. Links in F.md begin with it.");
+    arguments.add("--archive", &options.sources.archives,
+                  "A tar (also .gz or .zst) or zip file, or - for a tar on standard input.\nEach mesh in it "
+                  "is an asset.");
+    arguments.add("--archive-out", &options.archive_out,
+                  "Also packs the outputs of successful assets into F.tar or F.zip.\n- writes a tar to "
+                  "standard output.");
+    arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
+}
+
 void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_asset_options(arguments, options);
     arguments
@@ -62,41 +99,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
                   "Runs all assets. By default, no asset starts after one has failed.");
     arguments.add("--prune", &options.prune,
                   "Removes outputs of earlier batches whose input no longer exists.");
-    arguments.add("--report", &options.common.reports,
-                  "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt. - writes JSON to "
-                  "standard\noutput.");
-    arguments.add(
-        "--time-limit", &options.time_limit,
-        "The time for each asset: 30s, 500ms, 5min or 1h. An asset that takes longer fails (E-TIME), "
-        "and\nwrites nothing. Stages stop where they report progress.");
-    arguments.add("--table-out", &options.tables,
-                  "Also measures each model, and writes a table with a row per asset, rejected ones "
-                  "too:\nF.csv or F.jsonl.");
-    arguments
-        .add("--overhang-angle", &options.overhang_angle,
-             "The slope in degrees below which faces count as overhangs in --table-out. Default: 45.")
-        .not_negative();
-    arguments
-        .add("--summary", &options.summary,
-             "by-asset lists every asset. by-id groups errors and warnings by id, on the terminal in at most "
-             "ten\nlines. Reports then list no assets; --table-out does.")
-        .one_of({"by-asset", "by-id"});
-    arguments.add("--pictures", &options.pictures,
-                  "Also writes a picture of each asset as PNG into this folder below the output folder. F.md "
-                  "shows\nthem.");
-    arguments.add(
-        "--link-base", &options.link_base,
-        "The address under which the output folder is published. Links and pictures in F.md begin with "
-        "it.");
-    arguments.add(
-        "--archive", &options.sources.archives,
-        "A tar (also .gz or .zst) or zip file, or - for a tar on standard input. Each mesh in it is "
-        "an\nasset.");
-    arguments.add(
-        "--archive-out", &options.archive_out,
-        "Also packs the outputs of successful assets into F.tar or F.zip. - writes a tar to standard "
-        "output.");
-    arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
+    add_result_options(arguments, options);
     add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
     add_sandbox_option(arguments, options.common.sandbox);
@@ -310,6 +313,34 @@ AllowedFiles allowed_for(const std::vector<batch::Work>& works, const batch::Set
     return allowed;
 }
 
+/// Adds errors in the names of reports, tables and archives.
+void check_results(const BatchOptions& options, const CommandLine& line, Problems& problems) {
+    for (const auto& report : options.common.reports) {
+        try {
+            report::form_of(report);
+        } catch (Error& e) {
+            problems.add(e.at(line.value(report)));
+        }
+    }
+    for (const auto& table : options.tables) {
+        try {
+            static_cast<void>(io::row_format(table));
+        } catch (Error& e) {
+            problems.add(e.at(line.value(table)));
+        }
+    }
+    if (std::ranges::count(options.common.reports, std::string("-")) + (options.archive_out == "-") > 1)
+        problems.add(line.find("--report"), "E-DUPLICATE-OUTPUT",
+                     "standard output takes one report or one archive", "write the other to a file");
+    if (!options.archive_out.empty() && !batch::is_archive_name(options.archive_out))
+        problems.add(line.value(options.archive_out), "E-FORMAT",
+                     fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
+                     "use a name that ends in .tar or .zip");
+    if (!(options.overhang_angle <= 90))
+        problems.add(line.find("--overhang-angle"), "E-RANGE",
+                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
+}
+
 /// Removes the unpacked files of archives at the end. After a signal they stay until the next batch.
 class RemoveUnpacked {
   public:
@@ -329,27 +360,7 @@ class RemoveUnpacked {
 int batch_work(const BatchOptions& options, const CommandLine& line, const Console& console) {
     Problems problems;
     check_sources(options, line, problems);
-    for (const auto& report : options.common.reports) {
-        try {
-            report::form_of(report);
-        } catch (Error& e) {
-            problems.add(e.at(line.value(report)));
-        }
-    }
-    for (const auto& table : options.tables) {
-        try {
-            static_cast<void>(io::row_format(table));
-        } catch (Error& e) {
-            problems.add(e.at(line.value(table)));
-        }
-    }
-    if (!options.archive_out.empty() && !batch::is_archive_name(options.archive_out))
-        problems.add(line.value(options.archive_out), "E-FORMAT",
-                     fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
-                     "use a name that ends in .tar or .zip");
-    if (!(options.overhang_angle <= 90))
-        problems.add(line.find("--overhang-angle"), "E-RANGE",
-                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
+    check_results(options, line, problems);
     PipelineOptions common = options.common;
     common.reports.clear(); // the option's reports belong to the summary
     common.timings.clear();

@@ -282,48 +282,44 @@ std::string missing_file(const std::string& message) {
 constexpr std::string_view our_fault = "We could not process the model because of a problem on our side. "
                                        "Your file may be fine. We will look into it.";
 
-/// Texts about ids that say more than the kind of the error.
+/// Texts about errors that say more than their kind, by their ids without the first letter.
 constexpr Plain reasons[] = {
-    {"E-EMPTY",
+    {"EMPTY",
      "The file has no surface: it contains no faces. Please export the model as a mesh, and send the "
      "file again."},
-    {"E-NAN",
-     "The file has coordinates that are not numbers. Please export the model again, and send the new "
-     "file."},
-    {"E-INDEX",
-     "The file is damaged: a face refers to a corner that the file does not have. Please export the "
-     "model again, and send the new file."},
-    {"E-FACE", "The file is damaged: a face has too few corners, or the same corner twice. Please export the "
-               "model again, and send the new file."},
-    {"E-URI", "The file refers to another file that we did not receive. Please send all files of the model "
-              "together, or export a single file (.glb, .3mf or .stl)."},
-    {"E-FILE", "We did not receive the file, or a file that it refers to. Please send all files of the model "
-               "together."},
-    {"E-PERMISSION", "We could not open the file. Please send it again."},
-    {"E-ASSET-ROOT",
+    {"NAN", "The file has coordinates that are not numbers. Please export the model again, and send the new "
+            "file."},
+    {"INDEX", "The file is damaged: a face refers to a corner that the file does not have. Please export the "
+              "model again, and send the new file."},
+    {"FACE", "The file is damaged: a face has too few corners, or the same corner twice. Please export the "
+             "model again, and send the new file."},
+    {"URI", "The file refers to another file that we did not receive. Please send all files of the model "
+            "together, or export a single file (.glb, .3mf or .stl)."},
+    {"FILE", "We did not receive the file, or a file that it refers to. Please send all files of the model "
+             "together."},
+    {"PERMISSION", "We could not open the file. Please send it again."},
+    {"ASSET-ROOT",
      "The file refers to files outside its own folder. Please send all files of the model in one "
      "folder."},
-    {"E-FORMAT-VERSION",
-     "The file has a version of its format that we cannot read. Please export the model as "
-     "STL, 3MF, OBJ, PLY or glTF, and send the new file."},
-    {"E-EXTENSION",
+    {"FORMAT-VERSION", "The file has a version of its format that we cannot read. Please export the model as "
+                       "STL, 3MF, OBJ, PLY or glTF, and send the new file."},
+    {"EXTENSION",
      "The file uses an extension of its format that we cannot read. Please export the model without "
      "it, and send the new file."},
-    {"E-ENCODING",
+    {"ENCODING",
      "The file is text in an encoding that we cannot read. Please save it as UTF-8, and send the new "
      "file."},
-    {"E-TIME",
+    {"TIME",
      "The model takes longer to process than our limit. Please reduce its number of triangles, and send "
      "the file again."},
-    {"E-MEMORY",
+    {"MEMORY",
      "The model is too large for us to process. Please reduce its number of triangles, and send the "
      "file again."},
-    {"E-EXPANSION", "The compressed file becomes larger than our limit. Please send it without compression."},
-    {"E-LIMIT",
-     "The model is too large for us to process. Please reduce its number of triangles, and send the "
-     "file again."},
-    {"E-UNIT", "The file does not state its unit of length. Please tell us the unit: mm, cm, m or inches."},
-    {"E-SPACE", our_fault},
+    {"EXPANSION", "The compressed file becomes larger than our limit. Please send it without compression."},
+    {"LIMIT", "The model is too large for us to process. Please reduce its number of triangles, and send the "
+              "file again."},
+    {"UNIT", "The file does not state its unit of length. Please tell us the unit: mm, cm, m or inches."},
+    {"SPACE", our_fault},
 };
 
 std::string kind_text(ErrorKind kind) {
@@ -383,10 +379,11 @@ std::vector<std::string> failed_checks(const RunRecord& record) {
 } // namespace
 
 std::string customer_text(const Diagnostic& error, ErrorKind kind) {
-    if (error.id == "E-STRICT" && error.message.find("W-UNITS") != error.message.npos)
+    const std::string id = error.id.starts_with("E-") ? error.id.substr(2) : error.id;
+    if (id == "STRICT" && error.message.find("-UNITS ") != error.message.npos)
         return std::string(ask_for_unit);
-    if (error.id == "E-FORMAT") return std::string(unknown_format);
-    if (error.id == "E-FILE")
+    if (id == "FORMAT") return std::string(unknown_format);
+    if (id == "FILE")
         if (const std::string file = missing_file(error.message); !file.empty())
             return fmt::format(
                 "The file refers to '{}', which we did not receive. Please send all files of the "
@@ -395,7 +392,7 @@ std::string customer_text(const Diagnostic& error, ErrorKind kind) {
     const bool may_be_the_file =
         kind != ErrorKind::usage && kind != ErrorKind::output && kind != ErrorKind::bug;
     for (const Plain& row : reasons)
-        if (may_be_the_file && row.technical == error.id) return std::string(row.plain);
+        if (may_be_the_file && row.technical == id) return std::string(row.plain);
     return kind_text(kind);
 }
 

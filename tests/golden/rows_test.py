@@ -214,6 +214,7 @@ class Rows(Case):
         self.archives({"readme.txt": "no mesh"})
         self.assertIn("holds no meshes", self.mill("batch", "p.yaml", "--archive", "m.tar", "-o", "out", expect=3).stderr)
         self.assertIn("E-FORMAT", self.batch("--archive-out", "a.rar", expect=2).stderr)
+        self.assertIn("E-DUPLICATE-OUTPUT", self.batch("--archive-out", "-", "--report", "-", expect=2).stderr)
 
 
 if __name__ == "__main__":
