@@ -52,18 +52,8 @@ struct BatchOptions : AssetOptions {
     std::string time_limit;          ///< as given
 };
 
-void add_batch_options(Arguments& arguments, BatchOptions& options) {
-    add_asset_options(arguments, options);
-    arguments
-        .add("-j,--jobs", &options.common.threads,
-             "The number of assets that run at the same time, and of threads for all of them.\nDefault: "
-             "jobserver, FACETMILL_JOBS, or the number of cores.")
-        .between(1, 4096);
-    add_memory_option(arguments, options, "assets");
-    arguments.add("-k,--keep-going", &options.keep_going,
-                  "Runs all assets. By default, no asset starts after one has failed.");
-    arguments.add("--prune", &options.prune,
-                  "Removes outputs of earlier batches whose input no longer exists.");
+/// The options of reports, tables and archives.
+void add_result_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--report", &options.common.reports,
                   "Also writes a summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.\n- writes JSON to "
                   "standard output.");
@@ -95,6 +85,21 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
                   "Also packs the outputs of successful assets into F.tar or F.zip.\n- writes a tar to "
                   "standard output.");
     arguments.add("--timings", &options.common.timings, "Writes times and skipped assets to F.json.");
+}
+
+void add_batch_options(Arguments& arguments, BatchOptions& options) {
+    add_asset_options(arguments, options);
+    arguments
+        .add("-j,--jobs", &options.common.threads,
+             "The number of assets that run at the same time, and of threads for all of them.\nDefault: "
+             "jobserver, FACETMILL_JOBS, or the number of cores.")
+        .between(1, 4096);
+    add_memory_option(arguments, options, "assets");
+    arguments.add("-k,--keep-going", &options.keep_going,
+                  "Runs all assets. By default, no asset starts after one has failed.");
+    arguments.add("--prune", &options.prune,
+                  "Removes outputs of earlier batches whose input no longer exists.");
+    add_result_options(arguments, options);
     add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
     add_sandbox_option(arguments, options.common.sandbox);
@@ -308,6 +313,34 @@ AllowedFiles allowed_for(const std::vector<batch::Work>& works, const batch::Set
     return allowed;
 }
 
+/// Adds errors in the names of reports, tables and archives.
+void check_results(const BatchOptions& options, const CommandLine& line, Problems& problems) {
+    for (const auto& report : options.common.reports) {
+        try {
+            report::form_of(report);
+        } catch (Error& e) {
+            problems.add(e.at(line.value(report)));
+        }
+    }
+    for (const auto& table : options.tables) {
+        try {
+            static_cast<void>(io::row_format(table));
+        } catch (Error& e) {
+            problems.add(e.at(line.value(table)));
+        }
+    }
+    if (std::ranges::count(options.common.reports, std::string("-")) + (options.archive_out == "-") > 1)
+        problems.add(line.find("--report"), "E-DUPLICATE-OUTPUT",
+                     "standard output takes one report or one archive", "write the other to a file");
+    if (!options.archive_out.empty() && !batch::is_archive_name(options.archive_out))
+        problems.add(line.value(options.archive_out), "E-FORMAT",
+                     fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
+                     "use a name that ends in .tar or .zip");
+    if (!(options.overhang_angle <= 90))
+        problems.add(line.find("--overhang-angle"), "E-RANGE",
+                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
+}
+
 /// Removes the unpacked files of archives at the end. After a signal they stay until the next batch.
 class RemoveUnpacked {
   public:
@@ -327,30 +360,7 @@ class RemoveUnpacked {
 int batch_work(const BatchOptions& options, const CommandLine& line, const Console& console) {
     Problems problems;
     check_sources(options, line, problems);
-    for (const auto& report : options.common.reports) {
-        try {
-            report::form_of(report);
-        } catch (Error& e) {
-            problems.add(e.at(line.value(report)));
-        }
-    }
-    for (const auto& table : options.tables) {
-        try {
-            static_cast<void>(io::row_format(table));
-        } catch (Error& e) {
-            problems.add(e.at(line.value(table)));
-        }
-    }
-    if (std::ranges::count(options.common.reports, "-") + (options.archive_out == "-") > 1)
-        problems.add(line.find("--report"), "E-DUPLICATE-OUTPUT",
-                     "standard output takes one report or one archive", "write the other to a file");
-    if (!options.archive_out.empty() && !batch::is_archive_name(options.archive_out))
-        problems.add(line.value(options.archive_out), "E-FORMAT",
-                     fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
-                     "use a name that ends in .tar or .zip");
-    if (!(options.overhang_angle <= 90))
-        problems.add(line.find("--overhang-angle"), "E-RANGE",
-                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
+    check_results(options, line, problems);
     PipelineOptions common = options.common;
     common.reports.clear(); // the option's reports belong to the summary
     common.timings.clear();
