@@ -78,7 +78,7 @@ class Icp {
 
     struct State {
         Transform move;
-        double rms = HUGE_VAL, farthest = 0;
+        double rms = HUGE_VAL, whole = HUGE_VAL, farthest = 0; ///< whole: rms of all samples
         int steps = 0;
         bool settled = false;
     };
@@ -96,6 +96,7 @@ class Icp {
         }
         const Pairs last = pairs_of(points, state.move);
         state.rms = last.rms;
+        state.whole = last.whole;
         state.farthest = last.farthest;
         return state;
     }
@@ -104,7 +105,7 @@ class Icp {
     /// The samples that count, moved, with their nearest points and the normals there.
     struct Pairs {
         std::vector<Vec3> kept_sources, moved, nearest, normals;
-        double rms = 0, farthest = 0;
+        double rms = 0, whole = 0, farthest = 0;
     };
 
     Pairs pairs_of(const std::vector<Vec3>& points, const Transform& move) const {
@@ -122,6 +123,9 @@ class Icp {
         std::sort(order.begin(), order.end()); // sums follow the samples, not their distances
         Pairs pairs;
         double squares = 0;
+        for (const Closest& c : found)
+            if (c.triangle != none) pairs.whole += c.distance * c.distance;
+        pairs.whole = std::sqrt(pairs.whole / static_cast<double>(std::max<std::size_t>(found.size(), 1)));
         for (const Index i : order) {
             if (found[i].triangle == none) continue;
             const FaceTree::Triangle t = target_.triangle(found[i].triangle);
@@ -215,7 +219,10 @@ AlignResult align(const Surface& moving, const Surface& target, const AlignSetti
     for (std::size_t i = 0; i < starts.size(); ++i) {
         ProgressScope::report_item(i, 2 * starts.size());
         const Icp::State state = icp.run(few, starts[i], 20);
-        if (state.rms < best.rms) best = state;
+        // Poses of a nearly symmetric shape may differ only in the samples that do not count.
+        const double slack = 1e-3 * diagonal;
+        if (state.rms < best.rms - slack || (state.rms < best.rms + slack && state.whole < best.whole))
+            best = state;
     }
     result.before = icp.run(own.points, {}, 0).rms;
     const Icp::State done = icp.run(own.points, best.move, s.iterations);

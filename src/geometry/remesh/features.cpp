@@ -23,6 +23,7 @@ class Layout {
         work().points = mesh_.positions;
         work().flags.assign(work().corners.size(), 0);
         work().twins.assign(work().corners.size(), none);
+        work().rings.assign(work().corners.size(), none);
         EdgeTable edges;
         {
             Mesh faces;
@@ -71,7 +72,10 @@ class Layout {
         const bool manifold = sides.size() == 2 && work().from(sides[0]) != work().from(sides[1]);
         if (!manifold) {
             ++out_.locked_edges;
-            for (const Index h : sides) work().flags[h] = feature | locked | seam;
+            for (std::size_t i = 0; i < sides.size(); ++i) {
+                work().flags[sides[i]] = feature | locked | seam;
+                work().rings[sides[i]] = sides[(i + 1) % sides.size()];
+            }
             return;
         }
         const Index h = sides[0], twin = sides[1];

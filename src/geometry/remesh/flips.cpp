@@ -15,7 +15,7 @@ namespace {
 class Diagonals {
   public:
     Diagonals(const WorkingMesh& m, Index h)
-        : m_(m), a(m.from(h)), b(m.to(h)), c(m.opposite(h)), d(m.opposite(m.twins[h])) {}
+        : m_(m), h_(h), a(m.from(h)), b(m.to(h)), c(m.opposite(h)), d(m.opposite(m.twins[h])) {}
 
     [[nodiscard]] double shape_before() const { return std::min(shape(a, b, c), shape(b, a, d)); }
     [[nodiscard]] double shape_after() const { return std::min(shape(a, d, c), shape(b, c, d)); }
@@ -23,6 +23,9 @@ class Diagonals {
     /// Whether the flip keeps the topology, and both new faces look like both old ones.
     [[nodiscard]] bool is_allowed() const {
         if (c == d || m_.degrees[a] <= 3 || m_.degrees[b] <= 3) return false;
+        for (const Index side : {h_, m_.twins[h_]}) // locked edges keep their half edges
+            if ((m_.flags[WorkingMesh::next(side)] | m_.flags[WorkingMesh::previous(side)]) & locked)
+                return false;
         const auto many = [&](Index v) { return m_.kinds[v] == VertexKind::many; };
         if (many(c) && many(d)) return false;
         Vec3 first = m_.normal(a, b, c), second = m_.normal(b, a, d);
@@ -52,7 +55,7 @@ class Diagonals {
     }
 
     const WorkingMesh& m_;
-    Index a, b, c, d;
+    Index h_, a, b, c, d;
 };
 
 template <class Better>

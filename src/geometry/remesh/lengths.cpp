@@ -27,7 +27,7 @@ std::vector<Candidate> candidates(const WorkingMesh& m, double sign, Fits&& fits
     parallel_chunks(m.corners.size(), [&](std::size_t begin, std::size_t end) {
         std::vector<Candidate>& mine = chunks[begin / default_chunk];
         for (auto h = static_cast<Index>(begin); h < end; ++h) {
-            if (!m.stands(h) || m.flags[h] & locked) continue;
+            if (!m.stands(h) || (m.flags[h] & locked && !m.leads_ring(h))) continue;
             const double share = m.edge_length(h) / m.size_of(h);
             if (fits(share)) mine.push_back({share, h, m.from(h), m.to(h)});
         }
@@ -57,6 +57,7 @@ bool may_split(const WorkingMesh& m, Index h, const Vec3& point) {
 /// The point of the input for the middle of an edge; none if it is far from the edge.
 std::optional<Spot> middle_of(const WorkingMesh& m, const Anchor& anchor, Index h) {
     const Vec3 &a = m.points[m.from(h)], &b = m.points[m.to(h)], middle = (a + b) * 0.5;
+    if (m.flags[h] & locked) return Spot{middle, m.size_of(h), m.hints[m.from(h)], {}}; // never moved
     const auto spot =
         m.flags[h] & feature ? anchor.on_lines(middle) : anchor.on_surface(middle, m.hints[m.from(h)]);
     if (!spot || !(length(spot->point - middle) < 0.3 * length(b - a))) return {};
@@ -80,7 +81,7 @@ class Collapser {
   private:
     bool may_collapse(Index h) {
         const Index a = m_.from(h), b = m_.to(h);
-        if (m_.kinds[b] == VertexKind::many) return false;
+        if (m_.flags[h] & locked || m_.kinds[b] == VertexKind::many) return false;
         if (m_.kinds[a] == VertexKind::line) {
             if (!(m_.flags[h] & feature) || m_.kinds[b] == VertexKind::free || !keeps_line(h)) return false;
         } else if (m_.kinds[a] != VertexKind::free)
@@ -95,6 +96,7 @@ class Collapser {
             if (side == none) continue;
             const Index x = WorkingMesh::next(side), y = WorkingMesh::previous(side);
             if (m_.twins[x] == none && m_.twins[y] == none) return false;
+            if ((m_.flags[x] | m_.flags[y]) & locked) return false;
             // One of the two edges that fall together must be no feature, since the other region is lost.
             if (m_.flags[x] & feature && m_.flags[y] & feature) return false;
             if (m_.degrees[m_.opposite(side)] <= 3) return false;
@@ -178,7 +180,10 @@ void split_long_edges(WorkingMesh& m, const Anchor& anchor) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (!spots[i] || !all[i].is_current(m) || !may_split(m, all[i].h, spots[i]->point)) continue;
             const Index hint = spots[i]->hint != none ? spots[i]->hint : m.hints[all[i].from];
-            m.split(all[i].h, spots[i]->point, spots[i]->size, hint);
+            if (m.flags[all[i].h] & locked)
+                m.split_locked(all[i].h, spots[i]->point, spots[i]->size, hint);
+            else
+                m.split(all[i].h, spots[i]->point, spots[i]->size, hint);
             ++done;
         }
         if (done == 0) return;

@@ -28,6 +28,11 @@ RemeshSettings completed(RemeshSettings s, const Mesh& mesh) {
     return s;
 }
 
+/// Sharp lines shorter than this are noise: two edges, but never more than a 20th of the diagonal.
+double longest_noise(const RemeshSettings& s, const Mesh& mesh) {
+    return std::min(2 * (s.length > 0 ? s.length : s.min_length), mesh.bounds().diagonal() / 20);
+}
+
 /// Refuses a result that is too large, before any work on it.
 void refuse_giant_result(double faces) {
     constexpr double most_faces = 700e6;   // three half edges for each, numbered in 32 bits, and a reserve
@@ -150,8 +155,7 @@ RemeshResult remesh(Mesh mesh, const RemeshSettings& given) {
     NormalSeams::Shading shading = NormalSeams::Shading::as_given;
     if (mesh.has_seams() && mesh.find("NORMAL", Domain::wedge))
         shading = merge_normal_seams(mesh, settings.feature_angle).shading;
-    LaidOut laid = lay_out(mesh, settings.feature_angle,
-                           2 * (settings.length > 0 ? settings.length : settings.min_length));
+    LaidOut laid = lay_out(mesh, settings.feature_angle, longest_noise(settings, mesh));
     WorkingMesh& m = laid.mesh;
     m.sizes = intended_sizes(m, settings);
     m.hints.assign(m.points.size(), none);

@@ -38,9 +38,9 @@ struct RemeshResult {
 /// Every vertex of the result is a point of the input surface, up to rounding. Kept are boundaries, sharp
 /// edges, seams of attributes, and borders of materials and of other face attributes with identifiers. Their
 /// vertices move only along them, and a vertex where they end, meet or turn stays. Connected sharp edges of
-/// less than two lengths in total are noise, and not kept. Edges that are not
-/// manifold stay as they are. No step makes an edge or a vertex non-manifold, turns the normal of a face by
-/// more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and manifold.
+/// less than two lengths in total, and less than a 20th of the diagonal, are noise, and not kept. Edges that
+/// are not manifold stay as they are. No step makes an edge or a vertex non-manifold, turns the normal of a
+/// face by more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and manifold.
 ///
 /// Faces are triangulated first. Faces with a repeated corner are dropped. Attributes are interpolated at the
 /// nearest points of the input (geometry/transfer). Seams that only normals make are merged below the feature

@@ -13,42 +13,80 @@ Index WorkingMesh::add_face(const std::array<Index, 3>& vertices, Index region) 
     const auto f = static_cast<Index>(face_slots());
     corners.insert(corners.end(), vertices.begin(), vertices.end());
     twins.insert(twins.end(), 3, none);
+    rings.insert(rings.end(), 3, none);
     flags.insert(flags.end(), 3, std::uint8_t{0});
     regions.push_back(region);
     return f;
 }
 
-// Face (a, b, c) with the edge h from a to b becomes (a, m, c) and (m, b, c); its twin likewise.
-Index WorkingMesh::split(Index h, const Vec3& point, double size, Index hint) {
-    const Index twin = twins[h];
-    const auto m = static_cast<Index>(points.size());
+Index WorkingMesh::add_vertex(const Vec3& point, double size, Index hint, VertexKind kind) {
     points.push_back(point);
     sizes.push_back(size);
     hints.push_back(hint);
-    kinds.push_back(flags[h] & feature ? VertexKind::line : VertexKind::free);
-    const auto halve = [&](Index side) { // returns the half edge from m to the end of `side`
-        const Index c = opposite(side), end = to(side), f = side / 3;
-        const Index added = 3 * add_face({m, end, c}, regions[f]);
-        const Index across = next(side);
-        join(added + 1, twins[across]);
-        flags[added + 1] = flags[across];
-        flags[added] = flags[side];
-        corners[across] = m;
-        flags[across] = 0;
-        join(across, added + 2);
-        if (out[end] == across) out[end] = added + 1;
-        ++degrees[c];
-        return added;
-    };
-    const Index first = halve(h);
-    degrees.push_back(twin == none ? 3 : 4);
-    out.push_back(first);
+    kinds.push_back(kind);
+    degrees.push_back(0);
+    out.push_back(none);
+    return static_cast<Index>(points.size() - 1);
+}
+
+// Face (a, b, c) with the side from a to b becomes (a, m, c) and (m, b, c).
+Index WorkingMesh::halve(Index side, Index m) {
+    const Index c = opposite(side), end = to(side), across = next(side);
+    const Index added = 3 * add_face({m, end, c}, regions[side / 3]);
+    join(added + 1, twins[across]);
+    flags[added + 1] = flags[across];
+    flags[added] = flags[side];
+    if (rings[across] != none) { // the far edge is locked and now belongs to the new face
+        Index last = across;
+        while (rings[last] != across) last = rings[last];
+        rings[last] = added + 1;
+        rings[added + 1] = rings[across] == across ? added + 1 : rings[across];
+        rings[across] = none;
+    }
+    twins[across] = none;
+    corners[across] = m;
+    flags[across] = 0;
+    join(across, added + 2);
+    if (out[end] == across) out[end] = added + 1;
+    ++degrees[c];
+    return added;
+}
+
+Index WorkingMesh::split(Index h, const Vec3& point, double size, Index hint) {
+    const Index twin = twins[h];
+    const Index m = add_vertex(point, size, hint, flags[h] & feature ? VertexKind::line : VertexKind::free);
+    const Index first = halve(h, m);
+    out[m] = first;
+    degrees[m] = twin == none ? 3 : 4;
     if (twin == none) return m;
-    const Index second = halve(twin);
-    // h runs from a to m, and `second` from m to a.
+    const Index second = halve(twin, m);
+    // h runs to m, and `second` from m to the start of h.
     join(h, second);
     join(twin, first);
     return m;
+}
+
+bool WorkingMesh::leads_ring(Index h) const {
+    for (Index side = rings[h]; side != h; side = rings[side])
+        if (side < h) return false;
+    return true;
+}
+
+void WorkingMesh::split_locked(Index h, const Vec3& point, double size, Index hint) {
+    const Index a = from(h), m = add_vertex(point, size, hint, VertexKind::many);
+    std::vector<Index> sides{h};
+    for (Index side = rings[h]; side != h; side = rings[side]) sides.push_back(side);
+    std::vector<Index> near_a, near_b; // the sides of the two new edges
+    for (const Index side : sides) {
+        const bool from_a = from(side) == a;
+        const Index added = halve(side, m);
+        near_a.push_back(from_a ? side : added);
+        near_b.push_back(from_a ? added : side);
+    }
+    for (const auto* ring : {&near_a, &near_b})
+        for (std::size_t i = 0; i < ring->size(); ++i) rings[(*ring)[i]] = (*ring)[(i + 1) % ring->size()];
+    degrees[m] = static_cast<Index>(2 + sides.size());
+    out[m] = near_b.front();
 }
 
 /// Joins the neighbours of a face across its two edges that fall together. a, b: half edges of the face.
@@ -153,6 +191,7 @@ void WorkingMesh::compact() {
         for (Index k = 0; k < 3; ++k) {
             corners[3 * now + k] = vertex_now[corners[3 * f + k]];
             twins[3 * now + k] = half_edge_now(twins[3 * f + k]);
+            rings[3 * now + k] = half_edge_now(rings[3 * f + k]);
             flags[3 * now + k] = flags[3 * f + k];
         }
         regions[now] = regions[f];
@@ -166,6 +205,7 @@ void WorkingMesh::compact() {
     out.resize(vertices);
     corners.resize(3 * std::size_t{faces});
     twins.resize(3 * std::size_t{faces});
+    rings.resize(3 * std::size_t{faces});
     flags.resize(3 * std::size_t{faces});
     regions.resize(faces);
 }

@@ -11,7 +11,7 @@ namespace facetmill::remeshing {
 /// Flags of a half edge; both sides of an edge have the same.
 enum EdgeFlag : std::uint8_t {
     feature = 1, ///< a border, a sharp edge, a seam, or a border of materials
-    locked = 2,  ///< not manifold: stays as it is, without a twin
+    locked = 2,  ///< not manifold: without a twin; only split
     seam = 4,    ///< wedges differ across it
 };
 
@@ -27,13 +27,14 @@ enum class VertexKind : std::uint8_t {
 class WorkingMesh {
   public:
     std::vector<Vec3> points;
-    std::vector<double> sizes;       ///< [vertices] intended edge lengths
-    std::vector<VertexKind> kinds;   ///< [vertices]
-    std::vector<Index> hints;        ///< [vertices] triangle of the input's tree near the vertex
-    std::vector<Index> out;          ///< [vertices] a half edge that leaves it; none: removed
-    std::vector<Index> degrees;      ///< [vertices] edges
-    std::vector<Index> corners;      ///< [half edges] vertices
-    std::vector<Index> twins;        ///< [half edges] the other side; none at borders
+    std::vector<double> sizes;     ///< [vertices] intended edge lengths
+    std::vector<VertexKind> kinds; ///< [vertices]
+    std::vector<Index> hints;      ///< [vertices] triangle of the input's tree near the vertex
+    std::vector<Index> out;        ///< [vertices] a half edge that leaves it; none: removed
+    std::vector<Index> degrees;    ///< [vertices] edges
+    std::vector<Index> corners;    ///< [half edges] vertices
+    std::vector<Index> twins;      ///< [half edges] the other side; none at borders
+    std::vector<Index> rings; ///< [half edges] the next half edge of the same locked edge; none for others
     std::vector<std::uint8_t> flags; ///< [half edges] EdgeFlag
     std::vector<Index> regions;      ///< [faces] faces connected without a feature
 
@@ -88,6 +89,10 @@ class WorkingMesh {
 
     /// Puts a new vertex on the edge. Returns the vertex.
     Index split(Index h, const Vec3& point, double size, Index hint);
+    /// The same for a locked edge, at all its sides.
+    void split_locked(Index h, const Vec3& point, double size, Index hint);
+    /// Whether h is the first of the sides of its locked edge.
+    [[nodiscard]] bool leads_ring(Index h) const;
     /// Moves the first vertex of h into the second. The caller has checked that this keeps the surface.
     void collapse(Index h);
     /// Replaces the edge of two triangles by the other diagonal.
@@ -100,6 +105,9 @@ class WorkingMesh {
         twins[h] = twin;
         if (twin != none) twins[twin] = h;
     }
+    Index add_vertex(const Vec3& point, double size, Index hint, VertexKind kind);
+    /// Puts vertex m on a side of an edge. Returns the half edge from m to the end of the side.
+    Index halve(Index side, Index m);
     Index add_face(const std::array<Index, 3>& vertices, Index region);
     void close_gap(Index f, Index a, Index b);
 };

@@ -1,3 +1,4 @@
+#include "base/text/words.hpp"
 #include "geometry/align/align.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/gltf.hpp"
@@ -59,6 +60,11 @@ void declare_report(DeclareFields<AlignReport>& d) {
     d.field("starts", &AlignReport::starts, "The number of starts that were tried.");
     d.field("matrix", &AlignReport::matrix,
             "The move as 16 numbers, column by column, as in the matrix of a glTF node.");
+    d.tell([](const AlignReport& r) {
+        return std::vector{fmt::format("residual {:.4g}, before {:.4g}; {} from the best of {}", r.residual,
+                                       r.before, counted(static_cast<std::size_t>(r.iterations), "iteration"),
+                                       counted(r.starts, "start"))};
+    });
 }
 
 std::vector<double> columns_of(const Transform& t) {

@@ -20,8 +20,8 @@ Every vertex of the result is on the input surface.
 Boundaries, sharp edges (feature_angle), seams of attributes and borders of materials are kept.
 Their vertices only move along them, and their lines move by at most a 20th of the length.
 Vertices where such lines end or meet stay.
-Sharp edges in lines shorter than two lengths count as noise.
-Edges with more than two faces, or with two faces in conflicting directions, stay unchanged.
+Sharp edges in lines shorter than two lengths and than 5% of the diagonal count as noise.
+Edges with more than two faces, or with two faces in conflicting directions, are only split.
 
 A closed mesh stays closed, and a manifold mesh stays manifold.
 No step turns a face by more than 60 degrees, but parts that are thinner than the length can intersect

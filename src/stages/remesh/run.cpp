@@ -63,7 +63,8 @@ void declare_part(DeclareFields<RemeshedPart>& d) {
     d.field("faces", &RemeshedPart::faces, "Triangles after.");
     d.field("feature_edges", &RemeshedPart::feature_edges,
             "Edges of the result that are boundaries, sharp edges, seams or borders of materials.");
-    d.field("locked_edges", &RemeshedPart::locked_edges, "Edges that are not manifold, which stayed.");
+    d.field("locked_edges", &RemeshedPart::locked_edges,
+            "Edges of the input that are not manifold, which are only split.");
     d.field("shortest_edge", &RemeshedPart::shortest, "The shortest edge.").unit("scene units");
     d.field("mean_edge", &RemeshedPart::mean, "The mean edge.").unit("scene units");
     d.field("longest_edge", &RemeshedPart::longest, "The longest edge.").unit("scene units");
@@ -75,6 +76,15 @@ void declare_part(DeclareFields<RemeshedPart>& d) {
 
 void declare_report(DeclareFields<RemeshReport>& d) {
     d.list("parts", &RemeshReport::parts, "Each remeshed part.", declare_part);
+    d.tell([](const RemeshReport& r) {
+        std::vector<std::string> lines;
+        lines.reserve(r.parts.size());
+        for (const RemeshedPart& p : r.parts)
+            lines.push_back(fmt::format("{}: edges {:.4g} to {:.4g}, {:.4g} on average{}", p.part, p.shortest,
+                                        p.longest, p.mean,
+                                        p.deviation ? fmt::format("; deviation {:.4g}", *p.deviation) : ""));
+        return lines;
+    });
 }
 
 /// Remeshes parts in their own space, or in the world if their transform is no similarity.
@@ -89,6 +99,10 @@ class PartRemesher {
         const double stretch = back ? 1 : mean_stretch(part.transform);
         const RemeshSettings settings = settings_for(part, stretch);
         RemeshedPart result{part.name, 0, 0, 0, 0, 0, 0, 0, {}};
+        if (!(settings.length > 0) && !(settings.tolerance > 0)) { // a share of a diagonal without extent
+            warn_of_no_area(part);
+            return result;
+        }
         Mesh mesh = triangles_of(part.mesh);
         part.mesh = {};
         if (back) apply(mesh, part.transform);
@@ -125,12 +139,15 @@ class PartRemesher {
         return s;
     }
 
+    void warn_of_no_area(const Part& part) const {
+        context_.warn(
+            "W-REMESH-NO-AREA",
+            fmt::format("remesh: part '{}' stays unchanged, because its faces have no area", part.name),
+            "remove such faces with clean");
+    }
+
     void warn(const Part& part, const RemeshResult& r, const RemeshedPart& result, double tolerance) const {
-        if (!(r.expected_faces > 0) && result.faces_before > 0)
-            context_.warn(
-                "W-REMESH-NO-AREA",
-                fmt::format("remesh: part '{}' stays unchanged, because its faces have no area", part.name),
-                "remove such faces with clean");
+        if (!(r.expected_faces > 0) && result.faces_before > 0) warn_of_no_area(part);
         if (tolerance > 0 && result.deviation && *result.deviation > tolerance)
             context_.warn("W-REMESH-TOLERANCE",
                           fmt::format("remesh: part '{}' is up to {:.4g} from the input, more than the "

@@ -57,6 +57,16 @@ void declare_part(DeclareFields<TransferredPart>& d) {
 
 void declare_report(DeclareFields<TransferReport>& d) {
     d.list("parts", &TransferReport::parts, "Each part.", declare_part);
+    d.tell([](const TransferReport& r) {
+        std::vector<std::string> lines;
+        lines.reserve(r.parts.size());
+        for (const TransferredPart& p : r.parts)
+            lines.push_back(fmt::format(
+                "{}: {}; distance {:.4g} on average, {:.4g} at most", p.part,
+                p.attributes.empty() ? "no attributes" : fmt::format("{}", fmt::join(p.attributes, ", ")),
+                p.mean, p.farthest));
+        return lines;
+    });
 }
 
 bool is_taken(const Attribute& a, const TransferOptions& o) {

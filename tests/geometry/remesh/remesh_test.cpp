@@ -1,6 +1,7 @@
 #include "geometry/remesh/remesh.hpp"
 
 #include "geometry/deviation/deviation.hpp"
+#include "mesh/face.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
@@ -57,7 +58,11 @@ TEST_CASE("remesh: edges of a cube stay sharp, and its volume exact", "[remesh]"
     CHECK(test::sound(r.mesh, 2));
     CHECK(deviation(surface_of(shapes::cube()), surface_of(r.mesh), {.means = false}).maximum() < 1e-12);
     CHECK(smallest_angle(r.mesh) > 25);
-    CHECK(r.feature_edges > 100);
+    CHECK(r.feature_edges == 96); // each of the 12 edges is halved three times
+    const RemeshResult coarse = remesh(r.mesh, to_length(100));
+    CHECK(test::sound(coarse.mesh, 2));
+    CHECK(coarse.mesh.face_count() < 60);
+    CHECK(deviation(surface_of(shapes::cube()), surface_of(coarse.mesh), {.means = false}).maximum() < 1e-12);
 }
 
 TEST_CASE("remesh: seams keep their texture coordinates", "[remesh]") {
@@ -106,7 +111,8 @@ TEST_CASE("remesh: borders of materials stay", "[remesh]") {
 TEST_CASE("remesh: edges that are not manifold stay", "[remesh]") {
     const RemeshResult r = remesh(shapes::fan3(), to_length(0.2));
     CHECK(r.locked_edges == 1);
-    CHECK(test::count(r.mesh).crowded == 1);
+    CHECK(r.longest < 0.35);
+    CHECK(test::count(r.mesh).crowded > 1);
     const RemeshResult glass = remesh(shapes::hourglass(), to_length(0.3));
     CHECK(test::count(glass.mesh).pinched == 1);
     CHECK(test::count(glass.mesh).open == 0);
