@@ -5,6 +5,7 @@
 #include "options/mark_at.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stages/measure/face_table.hpp"
+#include "stages/measure/robot_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -50,18 +51,21 @@ void declare_measure(Declare<MeasureOptions>& d) {
     d.option("missing", &MeasureOptions::missing,
              "The value of an attribute where no number exists. Default: nan, which render shows as \"no "
              "value\" and PLY stores. Other formats store 0 instead of nan (W-NAN).");
-    d.option("path", &MeasureOptions::path,
-             "The file to write, or a list of files. The suffix selects the format: .json for all results, "
-             ".csv for a table of faces. - writes JSON to standard output. Columns of the table: " +
-                 face_table_help() + ".")
+    d.option(
+         "path", &MeasureOptions::path,
+         "The file to write, or a list of files. The suffix selects the format: .json for all results, "
+         ".csv for a table of faces, .urdf or .mjcf for the mass, centre of mass and inertia of each part in "
+         "metres. - writes JSON to standard output. Columns of the table: " +
+             face_table_help() + ".")
         .also_called(path_synonyms);
 }
 
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems) {
     for (const auto& path : o.path)
-        if (path.text != "-" && !lists_faces(path) && !path.text.ends_with(".json"))
+        if (path.text != "-" && !lists_faces(path) && !path.text.ends_with(".json") &&
+            robot_format(path) == RobotFormat::none)
             problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
-                         "use a name that ends in .json or .csv");
+                         "use a name that ends in .json, .csv, .urdf or .mjcf");
     if (o.with && !compares(o))
         add_refusal(Refusal{"with", "'with' needs the attribute deviation"}, "measure", given, problems);
     if (given.find("missing") && o.attributes.empty())
