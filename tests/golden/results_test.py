@@ -89,6 +89,7 @@ RUNS = [
     "generate icosphere --subdivisions 4 ! write tileset.json --tiles.faces 500 --draco",
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
+    "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
 ]
 
