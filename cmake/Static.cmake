@@ -25,7 +25,7 @@ const std::vector<LibraryVersion>& linked_sources() {
 ]])
 
 set(static_objects "")
-foreach(room core seldom program triangulations cgal openmesh)
+foreach(room core seldom program triangulations cgal hulls openmesh)
   list(APPEND static_objects $<TARGET_OBJECTS:facetmill_${room}>)
 endforeach()
 add_executable(facetmill_static src/cli/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/generated/linked_sources.cpp ${static_objects})

@@ -92,6 +92,8 @@ RUNS = [
     "load cubes.obj ! normals --with open.off ! remesh 0.3",
     "load cubes.obj ! clean --hidden --smaller_than 1",
     "load open.off ! align cubes.obj ! transfer cubes.obj",
+    "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
+    "generate torus ! wrap 10%",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
 ]
 

@@ -44,19 +44,27 @@ class DirectionTally {
     std::map<std::array<double, 3>, Vec3> sums_;
 };
 
+/// The hull, or nothing for fewer than three finite points.
+ConvexSurface hull_of(const std::vector<Vec3>& positions) {
+    std::vector<Vec3> finite;
+    finite.reserve(positions.size());
+    for (const Vec3& p : positions)
+        if (is_finite(p)) finite.push_back(p);
+    return finite.size() < 3 ? ConvexSurface{} : convex_surface(finite);
+}
+
 class PrintDirections {
   public:
     PrintDirections(const Surface& surface, const Vec3& up, const PrintDirectionSettings& settings)
         : surface_(surface), up_(up), steepest_(cosine(settings.overhang_angle) + 1e-6),
-          hull_(convex_hull(surface.positions)), box_(surface.bounds()), on_plate_(4 * float32_ulp(box_)) {
+          hull_(hull_of(surface.positions)), box_(surface.bounds()), on_plate_(4 * float32_ulp(box_)) {
         areas_.reserve(surface.size());
         for (std::size_t t = 0; t < surface.size(); ++t) {
             areas_.push_back(twice_area({surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)}) *
                              0.5);
             total_ += length(areas_.back());
         }
-        for (const auto& t : hull_) corners_.insert(corners_.end(), t.begin(), t.end());
-        if (corners_.empty()) corners_ = surface.positions;
+        corners_ = hull_.points.empty() ? surface.positions : hull_.points;
         const auto before = [](const Vec3& a, const Vec3& b) {
             return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
         };
@@ -89,7 +97,8 @@ class PrintDirections {
         std::vector<Vec3> all{up_};
         // Faces of the hull lie on the plate only in exactly their own direction.
         DirectionTally hull(1.0 / 4096), own(1.0 / 64);
-        for (const auto& t : hull_) hull.add(twice_area(t));
+        for (const auto& t : hull_.triangles)
+            hull.add(twice_area({hull_.points[t[0]], hull_.points[t[1]], hull_.points[t[2]]}));
         for (const Vec3& area : areas_) own.add(area);
         for (const Vec3& n : hull.largest(128)) all.push_back(-n);
         for (const Vec3& n : own.largest(64)) {
@@ -191,7 +200,7 @@ class PrintDirections {
     const Surface& surface_;
     Vec3 up_;
     double steepest_; ///< the share of its area that an overhanging face at least turns down
-    std::vector<std::array<Vec3, 3>> hull_;
+    ConvexSurface hull_;
     Box box_;
     double on_plate_ = 0, total_ = 0;
     std::vector<Vec3> areas_, corners_; ///< of triangles; of the hull

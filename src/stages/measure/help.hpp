@@ -55,6 +55,10 @@ Both are divided by a third of the area around the vertex.
 Statistics of curvature exclude the boundary.
 The result total_in_turns is the Euler number of a manifold, whatever its shape.
 
+A file for robots (.urdf for ROS, .mjcf or .xml for MuJoCo) has a link or body for each part.
+The inertia is about the centre of mass, along the axes of the scene, with lengths in metres.
+density is then the mass in kg of a cubic scene unit.
+
 The mesh passes on unchanged, except for the requested attributes.
 
 Sources: P. Bourke, 'Calculating the area of a 3D polygon' (2000), 'Polygon types' (1993),

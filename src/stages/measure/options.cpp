@@ -7,6 +7,7 @@
 #include "options/mark_at.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stages/measure/face_table.hpp"
+#include "stages/measure/robot_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -69,17 +70,19 @@ void declare_measure(Declare<MeasureOptions>& d) {
         .between(0, 90);
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files. The suffix selects the format: .json for all results, "
-             ".csv for a table, .jsonl for a table of parts or of the scene. - writes JSON to standard "
-             "output. Columns of a table of parts: part, " +
+             ".csv for a table, .jsonl for a table of parts or of the scene, .urdf or .mjcf for the mass, "
+             "centre of mass and inertia of each part in metres. - writes JSON to standard output. Columns "
+             "of a table of parts: part, " +
                  model_column_names() + ", unit. Columns of a table of faces: " + face_table_help() + ".")
         .also_called(path_synonyms);
 }
 
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems) {
     for (const auto& path : o.path)
-        if (path.text != "-" && !is_table(path) && !path.text.ends_with(".json"))
+        if (path.text != "-" && !is_table(path) && !path.text.ends_with(".json") &&
+            robot_format(path) == RobotFormat::none)
             problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
-                         "use a name that ends in .json, .csv or .jsonl");
+                         "use a name that ends in .json, .csv, .jsonl, .urdf or .mjcf");
         else if (o.per == Per::face && path.text.ends_with(".jsonl"))
             problems.add(given.mark, "E-FORMAT",
                          fmt::format("a table of faces is a .csv file, found '{}'", path.text),

@@ -7,6 +7,7 @@
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/rows.hpp"
+#include "stages/measure/robot_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -278,8 +279,13 @@ void write_results(const MeasureOptions& o, const MeasureReport& report, const M
                    Context& context) {
     const Fields fields = fields_of<MeasureReport>(declare_measure_report);
     for (const auto& path : o.path) {
-        const std::string text = is_table(path) ? text_of(tables, path.text, o.per == Per::face)
-                                                : fields.json(&report).dump(2) + "\n";
+        const RobotFormat robot = robot_format(path);
+        if (robot != RobotFormat::none && report.unit == to_string(Unit::unknown))
+            context.warn("W-UNITS", fmt::format("the scene has no unit, so {} takes it as metres", path.text),
+                         "use load: {unit: mm}");
+        const std::string text = robot != RobotFormat::none ? robot_text(robot, report)
+                                 : is_table(path)           ? text_of(tables, path.text, o.per == Per::face)
+                                                            : fields.json(&report).dump(2) + "\n";
         context.output(path.text, std::as_bytes(std::span(text)));
     }
 }
