@@ -139,7 +139,7 @@ TEST_CASE("tile names neighbours without room for a peg", "[stages][bed]") {
     REQUIRE(run.record.warnings.size() == 1);
     CHECK(run.record.warnings[0].id == "W-TILE-PEGS");
     CHECK(run.record.warnings[0].message ==
-          "tile: 1 pair of part 'part' have no room for a peg: 'part.1.x0' and 'part.2.x1'");
+          "tile: part 'part' has no room for a peg at 1 pair of tiles: 'part.1.x0' and 'part.2.x1'");
     CHECK(run.record.result["without_pegs"] == 1);
     CHECK(failure([] {
               run_stage("tile", "{fit: 2, pegs: 0.1}", scene_of(scaled(shapes::grid(3, 3), {1, 1, 1})));

@@ -81,8 +81,8 @@ void warn_without_pegs(const Part& part, const PegsResult& pegs, const std::vect
             pairs, fmt::format("'{}' and '{}'", names[pegs.without[i].first], names[pegs.without[i].second]));
     if (pegs.without.size() > most) pairs += fmt::format(", and {} more", pegs.without.size() - most);
     context.warn("W-TILE-PEGS",
-                 fmt::format("tile: {} of part '{}' have no room for a peg: {}",
-                             counted(pegs.without.size(), "pair"), part.name, pairs),
+                 fmt::format("tile: part '{}' has no room for a peg at {} of tiles: {}", part.name,
+                             counted(pegs.without.size(), "pair"), pairs),
                  "use a smaller diameter, length or wall, or glue them");
 }
 
