@@ -26,7 +26,8 @@ OptionRef declare_switched(Declare<WriteSettings>& d, std::string_view name, G W
     OptionRef ref = d.group(name, member, help, fill);
     ref.option().parse = [member, parse = std::move(ref.option().parse)](const Option& self, const Value& v,
                                                                          void* target, Problems& problems) {
-        G& group = static_cast<WriteSettings*>(target)->*member = G{.on = true};
+        G& group = static_cast<WriteSettings*>(target)->*member = G{};
+        group.on = true;
         if constexpr (requires { group.given; }) group.given = true;
         return parse(self, v, target, problems);
     };
