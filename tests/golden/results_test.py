@@ -90,6 +90,7 @@ RUNS = [
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
     "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
+    "generate torus ! wrap 10%",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
 ]
 
