@@ -22,7 +22,7 @@ TEST_CASE("wrap: lengths are in world space", "[stages]") {
 TEST_CASE("wrap: tells what it refuses", "[stages]") {
     CHECK(refusal_of("wrap", "{alpha: 0.00001%}", scene_of(shapes::cube())).find("would have about") !=
           std::string::npos);
-    CHECK(refusal_of("wrap", "", scene_of(Mesh{})).find("no points to wrap") != std::string::npos);
+    CHECK(refusal_of("wrap", "1", scene_of(Mesh{})).find("no points to wrap") != std::string::npos);
     const auto run = run_stage("wrap", "10%", test::skinned_cube());
     CHECK(run.warnings() == std::vector<std::string>{"W-SKIN"});
     CHECK(run_stage("wrap", "{alpha: 10%, attributes: nearest}", test::skinned_cube()).warnings().empty());

@@ -108,7 +108,8 @@ Scene run(Scene scene, const AlignOptions& o, Context& context, AlignReport& rep
     const AlignResult r = align(surface_or_points_of(chosen, filled_surface), target, settings);
     for (std::size_t i = 0; i < moved.size(); ++i)
         if (moved[i]) scene.parts[i].transform = r.move * scene.parts[i].transform;
-    io::move_cameras_and_lights(scene, moved, r.move);
+    // A rigid motion keeps all lengths, so animated lengths stay right.
+    static_cast<void>(io::move_cameras_and_lights(scene, moved, r.move));
     report = {r.before, r.after, r.farthest, r.starts, r.iterations, columns_of(r.move)};
     warn(r, o, target.bounds().diagonal(), context);
     return scene;

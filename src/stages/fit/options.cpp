@@ -88,7 +88,8 @@ void verify_fit(const FitOptions& o, const Value& given, Problems& problems) {
     if (o.budget && !deferred("budget") && (o.budget->min || !(o.budget->max.value_or(0) > 0)))
         refuse("budget", "the budget is one size above 0", "give budget: 500kB", "E-RANGE");
     const io::Codec* codec = o.path.text == "-" ? io::codec_named("glb") : io::codec_for(o.path.text);
-    if (!deferred("path") && (!codec || !codec->write || !codec->can.meshopt || codec->can.tiles))
+    if (!deferred("path") &&
+        (!codec || !codec->write || !codec->can.honours("meshopt") || codec->can.honours("tiles")))
         refuse("path", fmt::format("'{}' is not the path of a glTF file", o.path.text),
                "give a path that ends in .glb or .gltf", "E-FORMAT");
 }

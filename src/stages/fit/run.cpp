@@ -34,12 +34,6 @@ std::string text_of(const std::optional<ReportedImages>& images, const char* wha
                : "";
 }
 
-const char* name_of(Compression compression) {
-    return compression == Compression::meshopt ? "meshopt"
-           : compression == Compression::draco ? "Draco"
-                                               : "no compression";
-}
-
 std::vector<std::string> lines_of(const FitReport& r) {
     const std::string bits = r.bits
                                  ? fmt::format("; bits of positions {}, normals {}, texture coordinates {}",
