@@ -1,5 +1,6 @@
 #include "cli/pipe_words.hpp"
 
+#include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
