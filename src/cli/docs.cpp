@@ -100,9 +100,7 @@ int print_docs(const std::string& name, const CommandLine& line, Console& consol
         const MessageId* message = message_id(docs::id_of(name));
         if (!message)
             throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("topic '{}' does not exist", name),
-                        stage_called(name) || !chain_called(name).empty() ? hint_for_stage(name, {})
-                                                                          : names_near(name),
-                        line.find(name));
+                        stage_called(name) ? hint_for_stage(name, {}) : names_near(name), line.find(name));
         print(docs::message_page(*message));
         return 0;
     }

@@ -86,7 +86,6 @@ std::string hint_for(const std::vector<std::string>& words, const std::vector<st
         return "use facetmill convert IN OUT to convert a mesh file, or facetmill view IN to look at it";
     if (docs::ready_pipeline(name))
         return fmt::format("use facetmill run {} -D input=FILE to run a pipeline", name);
-    if (const std::string_view chain = chain_called(name); !chain.empty()) return std::string(chain);
     if (const StageInfo* stage = stage_called(name)) return as_pipe(stage->name, words);
     return suggestion(name, names);
 }
@@ -166,6 +165,9 @@ std::string fault_hint(const Command& command, const Arguments& arguments, const
         return fmt::format("give a number from {} to {}, or leave out {}", option->range->first,
                            option->range->second, name);
     if (!fault.ends_with("is required")) return fmt::format("see facetmill {} --help", command.name);
+    const auto& words = line.arguments();
+    if (std::find(words.begin(), words.end(), "!") != words.end())
+        return hint_for(command, arguments, "FILE", line);
     if (option)
         return fmt::format("add it, for example {} {}", name,
                            option->choices.empty() ? "out" : option->choices.front());

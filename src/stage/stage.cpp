@@ -105,22 +105,14 @@ std::vector<std::string> stage_names() {
 }
 
 const StageInfo* stage_called(std::string_view other_name) {
-    const std::string word = lower_case(std::string(other_name));
+    std::string word = lower_case(std::string(other_name));
+    std::replace(word.begin(), word.end(), '-', '_');
     for (const auto& s : registry())
         if (has_word(s.also_called, word)) return &s;
     return nullptr;
 }
 
-std::string_view chain_called(std::string_view other_name) {
-    std::string word = lower_case(std::string(other_name));
-    std::replace(word.begin(), word.end(), '-', '_');
-    for (const auto& s : registry())
-        if (has_word(s.chain.words, word)) return s.chain.stages;
-    return {};
-}
-
 std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names) {
-    if (const std::string_view chain = chain_called(word); !chain.empty()) return std::string(chain);
     if (const StageInfo* stage = stage_called(word))
         return fmt::format("'{}' is done by {} here: facetmill stages {}", word, stage->name, stage->name);
     return did_you_mean(word, names, "facetmill stages lists all stages");

@@ -58,10 +58,6 @@ struct StageInfo {
     std::string name; ///< the verb users write
     /// Names in other programs, separated by blanks. Only for hints, because a stage has a single name.
     const char* also_called = "";
-    /// An operation of other programs that needs this stage together with others.
-    struct Chain {
-        const char *words = "", *stages = ""; ///< words, separated by blanks; a hint with the stages
-    } chain = {};
     std::string about; ///< a single line
     /// Paragraphs of short lines: its guarantees, its effect on attributes, its source.
     const char* details = "";
@@ -141,8 +137,6 @@ const std::vector<StageInfo>& stages();
 
 /// The stage with this name in other programs, or null.
 [[nodiscard]] const StageInfo* stage_called(std::string_view other_name);
-/// A hint for an operation of other programs that needs several stages (remesh); empty for other words.
-[[nodiscard]] std::string_view chain_called(std::string_view other_name);
 /// A hint for an unknown stage name: the stage with this meaning, or the most similar name.
 [[nodiscard]] std::string hint_for_stage(std::string_view word, const std::vector<std::string>& names);
 

@@ -11,6 +11,8 @@ namespace {
 
 Scene coloured(double red, double green, double blue) {
     Scene scene = scene_of(shapes::cube());
+    scene.parts[0].mesh.primitives.resize(1);
+    scene.parts[0].mesh.primitives[0].material = 0;
     scene.materials.push_back({.name = "paint", .base_colour = {red, green, blue, 1}});
     return scene;
 }

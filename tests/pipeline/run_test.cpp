@@ -427,5 +427,5 @@ TEST_CASE("stages that take long tell how far they are, from beginning to end", 
         CHECK(largest_gap(second.at(what)) < limit);
     }
     CHECK(second.contains("r.html"));
-    CHECK(second.contains("inspection at the end"));
+    CHECK(second.contains("inspection of the result"));
 }

@@ -148,5 +148,5 @@ TEST_CASE("transform refuses what would flatten the parts", "[stages]") {
 TEST_CASE("transform names options without effect", "[stages]") {
     CHECK(failure([] {
               run_stage("transform", "{pivot: centre}", scene_of(shapes::cube()));
-          }).find("1:9: transform: 'pivot' needs scale, rotate or fit") != std::string::npos);
+          }).find("1:9: transform: 'pivot' needs scale, rotate, orient_for or fit") != std::string::npos);
 }

@@ -96,12 +96,17 @@ TEST_CASE("properties of faces are the least or the most of the numbers of their
         if (!p.of_faces) continue;
         const Quantity* q = quantity_named(p.name);
         REQUIRE(q);
-        const auto all = values_of(*q, part);
+        auto all = values_of(*q, part);
+        std::erase_if(all, [](double x) { return std::isnan(x); }); // no wall opposite, or no gap
         const auto [least, most] = std::minmax_element(all.begin(), all.end());
-        CHECK(measure(part.mesh, p) == (p.join == Join::least ? *least : *most));
+        INFO(p.name);
+        if (all.empty())
+            CHECK(!measure(part.mesh, p));
+        else
+            CHECK(measure(part.mesh, p) == (p.join == Join::least ? *least : *most));
         ++compared;
     }
-    CHECK(compared == 7);
+    CHECK(compared == 9);
 }
 
 TEST_CASE("numbers are the same for any number of threads", "[geometry]") {
@@ -112,6 +117,8 @@ TEST_CASE("numbers are the same for any number of threads", "[geometry]") {
         for (const int count : {1, 3}) {
             set_threads(count);
             found.push_back(values_of(q, part, &other));
+            for (double& x : found.back())
+                if (std::isnan(x)) x = -1; // nan differs from itself
         }
         set_threads(0);
         CAPTURE(q.name);

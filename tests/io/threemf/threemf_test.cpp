@@ -234,7 +234,7 @@ TEST_CASE("components of 3MF are placed through all levels, also of other models
 TEST_CASE("properties of 3MF triangles come from the triangle, else from the object", "[io]") {
     std::string mesh = one_triangle;
     mesh.insert(mesh.find("</triangles>"), R"(<triangle v1="0" v2="2" v3="1" pid="5" p1="1"/>
-      <triangle v1="0" v2="2" v3="1" pid="6" p1="0" p2="1" p3="1"/><triangle v1="0" v2="1" v3="2" pid="9" p1="3"/>)");
+      <triangle v1="0" v2="2" v3="1" pid="6" p1="0" p2="1" p3="1"/><triangle v1="0" v2="1" v3="2" pid="9" p1="0"/>)");
     const std::string resources =
         R"(<basematerials id="5"><base name="grey" displaycolor="#808080"/><base name="clear" displaycolor="#FF000080"/>
 </basematerials><m:colorgroup id="6"><m:color color="#010203"/><m:color color="#04050607"/></m:colorgroup>
