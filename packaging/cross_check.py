@@ -2,8 +2,8 @@
 """cross_check.py DIST [MESHES] [--only REGEX] [--every N] [--jobs N]: runs the arm64 executable of DIST under qemu-aarch64-static and
 compares every output with that of x86-64, byte for byte: exit codes, messages (except times and memory), files and reports.
 
-The commands are the examples of every stage on several meshes, all formats that are written, every mesh of the tests, and
-the texts. MESHES is a folder with further meshes (up to 300 kB each), which are written in two formats.
+The commands run the examples of every stage on several meshes, write all formats, read every mesh of the tests, and print
+the texts. MESHES is a folder with further meshes (up to 300 kB each). The commands write each of them in two formats.
 """
 
 import argparse

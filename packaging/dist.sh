@@ -1,9 +1,9 @@
 #!/bin/sh
 # dist.sh [OUT]: builds everything that a release has, in OUT (dist): static executables with their bills of materials,
 # wheels, npm packages, the image, and checksums. Without npm, its packages are left out with a message.
-# ARCH lists the architectures, x86_64 and aarch64; by default that of this machine. Debian's cross compiler builds the
-# others, and qemu-user-static runs them. RELEASE is the build folder for this machine (build/release),
-# and SYSROOT the folder of sysroot.sh (build/sysroot-arm64).
+# ARCH lists the architectures: x86_64, aarch64 or both. The default is the architecture of this machine. Debian's cross
+# compiler builds for aarch64 on x86_64, and qemu-user-static runs the result. RELEASE is the build folder for this
+# machine (build/release). SYSROOT is the folder of sysroot.sh (build/sysroot-arm64).
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$top/dist}

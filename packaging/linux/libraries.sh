@@ -1,6 +1,6 @@
 #!/bin/sh
-# libraries.sh PREFIX [SYSROOT]: builds static libraries from Debian's sources, in PREFIX/lib, of the versions that are
-# installed, or that sysroot.sh unpacked in SYSROOT: then for the architecture of toolchain.cmake.
+# libraries.sh PREFIX [SYSROOT]: builds static libraries from Debian's sources, in PREFIX/lib, in the installed versions.
+# With SYSROOT, it builds the versions that sysroot.sh unpacked there, for the architecture of toolchain.cmake.
 # Debian packages these five only as shared libraries. All others that facetmill links have a static library in their
 # Debian package. PREFIX/sources.txt lists the source package and version of all: the licences of facetmill's libraries
 # ask that people can get exactly these sources. A library that PREFIX already has in the wanted version is kept.
@@ -10,7 +10,7 @@ toolchain=$(cd "$(dirname "$0")" && pwd)/toolchain.cmake
 mkdir -p "$prefix/lib" "$prefix/include" "$prefix/build"
 prefix=$(cd "$prefix" && pwd)
 jobs=${JOBS:-2}
-# The same arithmetic on every processor, as facetmill's own objects have it.
+# These flags give the same arithmetic on every processor. facetmill's own objects have them, too.
 exact="-ffp-contract=off -fsigned-char"
 if [ -n "$sysroot" ]; then
     sysroot=$(cd "$sysroot" && pwd)
@@ -98,7 +98,7 @@ if fetch tinygltf libtinygltf-dev; then
 fi
 
 if [ -n "$sysroot" ]; then
-    # Debian compiles these two with fused multiply-add for arm64, so other bytes would come out than on x86-64.
+    # Debian compiles these two with fused multiply-add for arm64, so their outputs would differ from x86-64.
     if fetch draco libdraco-dev; then
         with_cmake draco && cmake --install "$prefix/build/draco/build" >/dev/null
         touch "$prefix/build/draco.built"

@@ -16,14 +16,15 @@ set(CMAKE_SYSTEM_PREFIX_PATH /usr)
 set(CMAKE_SYSTEM_LIBRARY_PATH "")
 set(ENV{PKG_CONFIG_SYSROOT_DIR} ${FACETMILL_SYSROOT})
 set(ENV{PKG_CONFIG_LIBDIR} ${FACETMILL_SYSROOT}/usr/lib/${triplet}/pkgconfig:${FACETMILL_SYSROOT}/usr/share/pkgconfig)
-# The start files and C++ library of the sysroot: those of the compiler's package have no security updates.
+# Use the start files and C++ library of the sysroot. The compiler's package has them without security updates.
 string(CONCAT flags "-B${FACETMILL_SYSROOT}/usr/lib/${triplet}/ -L${FACETMILL_SYSROOT}/usr/lib/${triplet}")
 execute_process(COMMAND ${CMAKE_CXX_COMPILER} -dumpversion OUTPUT_VARIABLE compiler_version OUTPUT_STRIP_TRAILING_WHITESPACE)
 string(REGEX MATCH "^[0-9]+" compiler_version "${compiler_version}")
 foreach(kind EXE SHARED MODULE)
   set(CMAKE_${kind}_LINKER_FLAGS_INIT "${flags} -L${FACETMILL_SYSROOT}/usr/lib/gcc/${triplet}/${compiler_version}")
 endforeach()
-# GCC notes that it passed some types differently before version 10. Paths in messages are the same for every sysroot.
+# -Wno-psabi: GCC notes that versions before 10 passed some types differently. Paths in messages are the same for every
+# sysroot.
 set(CMAKE_C_FLAGS_INIT -ffile-prefix-map=${FACETMILL_SYSROOT}=)
 set(CMAKE_CXX_FLAGS_INIT "-Wno-psabi -ffile-prefix-map=${FACETMILL_SYSROOT}=")
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L ${FACETMILL_SYSROOT})

@@ -59,23 +59,23 @@ void add_result_options(Arguments& arguments, BatchOptions& options) {
                   "standard output.");
     arguments.add(
         "--time-limit", &options.time_limit,
-        "The time for each asset: 30s, 500ms, 5min or 1h. An asset that takes longer fails (E-TIME)\nand "
-        "writes nothing. A stage stops at its next parallel loop or progress report.");
+        "The longest time for each asset, for example 30s, 500ms, 5min or 1h. An asset that takes\nlonger "
+        "fails (E-TIME) and writes nothing. A stage stops at its next parallel loop or\nprogress report.");
     arguments.add("--table-out", &options.tables,
-                  "Also measures each model, and writes a row per asset, rejected ones too: F.csv or "
-                  "F.jsonl.\nTexts that spreadsheets would run as formulas begin with an apostrophe.");
+                  "Also measures each model, and writes a row per asset, even if it fails: F.csv or "
+                  "F.jsonl.\nTexts that spreadsheets would run as formulas get an apostrophe in front.");
     arguments
         .add("--overhang-angle", &options.overhang_angle,
              "The slope in degrees below which faces count as overhangs in --table-out. Default: 45.")
         .not_negative();
     arguments
         .add("--summary", &options.summary,
-             "by-asset lists every asset. by-id groups errors and warnings by id, on the terminal in "
-             "at\nmost ten lines. Reports then list no assets; --table-out does.")
+             "by-asset lists every asset. by-id groups errors and warnings by id, in at most ten lines on "
+             "the\nterminal. Reports then list no assets. Use --table-out to list them.")
         .one_of({"by-asset", "by-id"});
     arguments.add("--pictures", &options.pictures,
-                  "Also writes a picture of each asset as PNG into this folder below the output "
-                  "folder.\nF.md shows them.");
+                  "Also writes a picture of each asset as PNG into this folder below the output folder.\nThe "
+                  "report F.md shows them.");
     arguments.add("--link-base", &options.link_base,
                   "The address under which the output folder is published. Links in F.md begin with it.");
     arguments.add("--archive", &options.sources.archives,

@@ -22,7 +22,7 @@ struct Conversion {
 
 /// The warning (W-TRANSFORM) about `keys_kept`, and its hint.
 inline constexpr const char* keys_kept_message =
-    "the lengths of cameras and lights that KHR_animation_pointer animates keep their numbers";
+    "KHR_animation_pointer animates lengths of cameras or lights, and their keys are not converted";
 inline constexpr const char* keys_kept_hint =
     "scale the keys of these animations in the program that made them, or keep the unit and the size";
 

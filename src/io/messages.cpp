@@ -77,9 +77,8 @@ const RegisterMessages io_messages{
      "colours.",
      "Write glTF to keep them. OBJ keeps materials of lines, and OBJ and 3MF keep materials of faces."},
     {"W-MERGED",
-     "When several glTF documents are written to one file, the file keeps all of them. If a document has "
-     "extensions whose references are unknown, or animation pointers, only its meshes and materials are "
-     "kept.",
+     "Several glTF documents are written to one file, and some of their contents are lost. If a document has "
+     "animation pointers or extensions with unknown references, only its meshes and materials are kept.",
      "If you need the animations or cameras of the file in the message, load it alone and write it to a "
      "separate file."},
     {"W-NAME",

@@ -52,9 +52,10 @@ const RegisterMessages pipeline_messages{
      "Check the warning. Run `facetmill explain` to list the ids.",
      {ErrorKind::usage, ErrorKind::check}},
     {"E-TIME",
-     "A run took longer than `--time-limit`. Its outputs were not written. A stage stops at its next parallel "
+     "A run took longer than `--time-limit`. Its outputs were not written. A stage stops at its next "
+     "parallel "
      "loop or progress report, so a run may end some time after the limit.",
-     "Allow more time, or reduce the mesh first with `simplify`.", ErrorKind::limit},
+     "Allow more time with `--time-limit`, or reduce the mesh first with `simplify`.", ErrorKind::limit},
     {"E-UNQUOTED", "An expression inside `{}` or `[]` is not quoted.", "Write it in quotes: `\"${x}\"`.",
      ErrorKind::usage},
     {"E-VARIABLE", "No variable has this name.",

@@ -36,7 +36,7 @@ constexpr Plain obstacles[] = {
     {"not planar", "its border does not lie in a plane"},
     {"intersects itself", "its border crosses itself"},
     {"without area", "its border is a line without area"},
-    {"border of a flat surface", "it is the border of a flat sheet, and not a hole in a solid"},
+    {"border of a flat surface", "it is the border of a flat sheet, not a hole in a solid"},
     {"intersect other faces", "a cover would pass through other parts of the model"},
     {"is open", "some of these surfaces are open, and only closed ones can be joined"},
     {"float32", "the surfaces are closer together than the file format can store"},
@@ -178,8 +178,7 @@ std::string open_text(const Check& check, const RunRecord& record, const Repairs
     };
     if (all_are("single face") || is_loose(record))
         return "The model consists of loose triangles that are not connected, so it encloses no space. "
-               "Please "
-               "join them to a closed surface, and send the file again.";
+               "Please join them into a closed surface, and send the file again.";
     if (all_are("border of a flat surface"))
         return "The model is a thin sheet without thickness, so it encloses no space. Please give it a "
                "thickness, and send the file again.";
@@ -256,7 +255,7 @@ std::string check_text(const Check& check, const RunRecord& record, const Repair
         if (row.property != check.name) continue;
         if (!check.file.empty()) return std::string(too_close_text);
         const std::string what = fmt::format(fmt::runtime(row.what), near(check));
-        return fmt::format("{} {} {}", what, repairs.why_not("mend this", row.step), row.ask);
+        return fmt::format("{} {} {}", what, repairs.why_not("repair this", row.step), row.ask);
     }
     return size_text(check, record);
 }

@@ -7,7 +7,7 @@ const RegisterMessages stage_messages{
      "Give `min` and `max`, or `centre` and `size`. `max` must be greater than `min` along all three axes.",
      ErrorKind::usage},
     {"E-REFERENCE", "The mesh file that a stage takes values from has no faces.",
-     "Give a mesh with faces with `with`."},
+     "Set `with` to a mesh file that has faces."},
     {"W-BIND-POSE",
      "Stages work on the bind pose of a skinned part. Viewers and pictures show the pose of the joints, so a "
      "plane or box can cut a different place than you see.",
@@ -39,7 +39,8 @@ const RegisterMessages stage_messages{
      "A limit of the deviation, such as `max_error`, holds for the rest pose of a skinned or morphed part. "
      "Where joints bend the surface or morph targets move it, the deviation is larger. `simplify` measures "
      "it in sampled poses.",
-     "Use `simplify` with a ratio for parts that move, as in `simplify: 50%`, and compare their poses."},
+     "Use `simplify` with a ratio for parts that move, as in `simplify: 50%`, and look at the result in "
+     "several poses."},
     {"W-SNAPPED",
      "`clip` or `crop` treats vertices near the plane or the outline as on it. The part is so far from the "
      "origin that its 32-bit floats are rounded visibly, by up to a quarter of a metre in UTM.",

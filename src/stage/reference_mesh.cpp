@@ -16,7 +16,7 @@ ReferenceMesh::ReferenceMesh(const PathText& path, const Scene& scene, Context& 
     if (tree_->empty())
         throw Error(ErrorKind::stage, "E-REFERENCE",
                     fmt::format("{}: '{}' has no faces to take values from", context.name(), path.text),
-                    "give a mesh with faces; for a point cloud, make a surface of it first");
+                    "name a mesh file that has faces; for a point cloud, make a surface with wrap first");
 }
 
 std::optional<ReferenceMesh::Carried> ReferenceMesh::carried_to(const Part& part) const {

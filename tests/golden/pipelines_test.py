@@ -75,7 +75,7 @@ class Golden(Case):
         self.assertEqual(*written)
         said = self.mill(*web, "-D", "budget=500", "--output-dir", "none", expect=1).stderr
         self.assertFalse((self.dir / "none/ring.glb").exists())
-        fits = said.split("this would fit: budget: ")[1].split()[0]
+        fits = said.split("use budget: ")[1].split()[0]
         self.mill(*web, "-D", f"budget={fits}", "--output-dir", "fits")
         self.mill(*web, "-D", "look=2%", "--output-dir", "look")
         self.assertLess((self.dir / "look/ring.glb").stat().st_size, 12000)

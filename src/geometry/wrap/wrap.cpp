@@ -86,7 +86,7 @@ double face_estimate(const Surface& surface, double alpha) {
     throw Error(ErrorKind::limit, "E-WRAP-LARGE",
                 fmt::format("wrap: the wrap {} {:.3g} faces, but max_faces is {}",
                             is_estimate ? "would have about" : "has more than", faces, grouped(s.max_faces)),
-                "use a larger alpha: twice the alpha gives about a quarter of the faces; or raise max_faces");
+                "raise max_faces, or use a larger alpha: twice the alpha gives about a quarter of the faces");
 }
 
 [[noreturn]] void fail_certificate(const std::string& why) {

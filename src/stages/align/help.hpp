@@ -6,14 +6,13 @@ namespace facetmill::help::align {
 inline constexpr const char* about = R"(Moves the scene onto another mesh, by rotation and translation.)";
 
 inline constexpr const char* details =
-    R"(Two versions of an object can then be compared: diff, ensure: {deviation: ...} and transfer need
-meshes in the same place.
+    R"(Use align before diff, ensure: {deviation: ...} and transfer, which need meshes in the same place.
 
-First the principal axes of both surfaces are matched in all 24 orders and signs, and the best start is
-taken.
-From there, each iteration pairs samples with the nearest points of the other mesh, and minimises the
-distances to the planes there.
-The farthest samples do not count (keep), so parts without a counterpart disturb little.
+The stage first tries the current position and all 24 rotations that match the principal axes of both
+surfaces.
+From the best start, each iteration pairs samples of the scene with the nearest points of the other mesh.
+It then minimises the distances of the samples from the planes of the nearest faces.
+The option keep leaves out the farthest samples, so areas without a counterpart have little effect.
 
 All selected parts move together, with their cameras and lights.
 Sizes do not change, and nothing is mirrored.

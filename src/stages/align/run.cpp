@@ -27,11 +27,13 @@ void declare(Declare<AlignOptions>& d) {
         .also_called("to target reference onto")
         .required()
         .primary();
-    d.choice<bool>("start", &AlignOptions::from_axes,
-                   {{"axes", true, "the best of all matches of the principal axes, or where the scene is"},
-                    {"here", false, "where the scene is"}},
-                   "Where to start.");
-    d.option("keep", &AlignOptions::keep, "The share of the samples that count, the nearest.")
+    d.choice<bool>(
+        "start", &AlignOptions::from_axes,
+        {{"axes", true, "the best match of the principal axes, or the current position if it is better"},
+         {"here", false, "the current position"}},
+        "Where to start.");
+    d.option("keep", &AlignOptions::keep,
+             "The share of the samples to use. The farthest samples are left out.")
         .also_called("trim overlap")
         .above(0)
         .at_most(1);
@@ -51,10 +53,12 @@ struct AlignReport {
 
 void declare_report(DeclareFields<AlignReport>& d) {
     d.field("residual_before", &AlignReport::before,
-            "The root mean square distance of the samples that count, before.")
+            "The root mean square distance of the used samples before the move.")
         .unit("scene units");
-    d.field("residual", &AlignReport::residual, "The same, after.").unit("scene units");
-    d.field("farthest", &AlignReport::farthest, "The largest distance of these samples, after.")
+    d.field("residual", &AlignReport::residual,
+            "The root mean square distance of the used samples after the move.")
+        .unit("scene units");
+    d.field("farthest", &AlignReport::farthest, "The largest distance of the used samples after the move.")
         .unit("scene units");
     d.field("iterations", &AlignReport::iterations, "The number of iterations.");
     d.field("starts", &AlignReport::starts, "The number of starts that were tried.");
@@ -87,8 +91,8 @@ void warn(const AlignResult& r, const AlignOptions& o, double diagonal, Context&
             fmt::format("align: the scene is still {:.4g} from '{}' on average, {:.2g} % of its diagonal{}",
                         r.after, o.with.text, 100 * r.after / diagonal,
                         r.settled ? "" : ", and its move has not settled"),
-            "check that both show the same object in the same unit, give a smaller keep if only a part "
-            "of it is in both, or more iterations");
+            "check that both meshes show the same object in the same unit; if they only overlap, give a "
+            "smaller keep; or give more iterations");
 }
 
 Scene run(Scene scene, const AlignOptions& o, Context& context, AlignReport& report) {

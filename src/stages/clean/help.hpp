@@ -70,15 +70,15 @@ This test is exact, and vertices that fail it do not move (W-CLEAN).
 With apart: false, no vertex moves.
 
 The step hidden: true runs first, and removes faces that no ray from outside reaches.
-All parts of the scene hide each other, in the bind pose.
-In 14 directions, parallel rays cover the scene, so close that every opening in these directions that is
-wider than gap lets a ray through.
-From each face that they do not reach, up to 256 rays in evenly spread directions look for a way out.
-Neighbours of reached faces stay.
-The report gives the numbers of rays, removed faces and their area.
+Each part can hide faces of other parts. Skinned parts are tested in the bind pose.
+Parallel rays first cover the scene in 14 directions.
+They are so close that an opening in one of these directions lets a ray through if it is wider than gap.
+From each face that no such ray reaches, up to 256 rays in evenly spread directions test for a way out.
+Faces that share a vertex with a reached face are kept.
+The report gives the number of rays, and the number and area of the removed faces.
 
 The step unit_vectors: true runs last.
-It mends normals, tangents and joint weights that glTF does not accept, as `normals: keep` does.
+It repairs normals, tangents and joint weights that glTF does not accept, as `normals: keep` does.
 Other values stay unchanged.
 
 Remaining elements keep their attributes.

@@ -58,7 +58,7 @@ void declare_removal(Declare<CleanOptions>& d) {
         .also_called("min_size small tiny remove_small", "smaller_than: 2mm")
         .above(0);
     d.option("hidden", &CleanOptions::hidden,
-             "Removes faces that no ray from outside reaches, behind all parts of the scene.")
+             "Removes faces that no ray from outside reaches, because parts of the scene hide them.")
         .also_called("remove_hidden invisible remove_invisible interior remove_interior occluded");
     d.option("gap", &CleanOptions::gap,
              "With hidden: openings wider than this count as open. Default: 1% of the scene's diagonal.")

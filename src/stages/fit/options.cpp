@@ -31,18 +31,17 @@ void declare_fit(Declare<FitOptions>& d) {
         .also_called(path_synonyms)
         .primary()
         .required();
-    may_be_off(
-        d.option("budget", &FitOptions::budget,
-                 "The largest size of the file, with its neighbours: 500kB. The file looks as much like "
-                 "the scene as this size allows. off: no limit.")
-            .also_called("size max_bytes bytes max_file_size")
-            .option(),
-        [](FitOptions& o) { o.budget.reset(); });
+    may_be_off(d.option("budget", &FitOptions::budget,
+                        "The largest size of the file and of the files that it refers to, for example 500kB. "
+                        "The file looks as much like the scene as this size allows. off: no limit.")
+                   .also_called("size max_bytes bytes max_file_size")
+                   .option(),
+               [](FitOptions& o) { o.budget.reset(); });
     may_be_off(
         d.option("look", &FitOptions::look,
-                 "The largest difference between pictures of the file and of the scene: 0.5%. The file "
-                 "gets the fewest bytes. The difference is the root mean square over all pixels of the "
-                 "object, as a share of the full range. off: no limit.")
+                 "The largest difference between pictures of the file and of the scene, for example 0.5%. "
+                 "The file is as small as this difference allows. The difference is the root mean square "
+                 "over all pixels of the object, as a share of the full range. off: no limit.")
             .also_called("max_difference similarity psnr ssim")
             .above(0)
             .at_most(1)
@@ -60,18 +59,18 @@ void declare_fit(Declare<FitOptions>& d) {
          {"none", Compression::none, "float32, which every reader supports"}},
         "How the meshes are compressed. none also keeps all bits of positions and normals.");
     std::vector<NamedChoice<std::string>> formats = {
-        {"webp", "webp", "WebP, through EXT_texture_webp"},
-        {"jpeg", "jpeg", "JPEG; images with used alpha keep their format"},
+        {"webp", "webp", "WebP, with EXT_texture_webp"},
+        {"jpeg", "jpeg", "JPEG; images whose alpha is used keep their format"},
         {"png", "png", "PNG, lossless"},
         {"keep", "keep", "the current format of each image"}};
     d.choice<std::string>("images", &FitOptions::images, formats,
-                          "The format of images that become smaller. Others stay as they are.")
+                          "The format of images that become smaller. Other images do not change.")
         .also_called("texture_format image_format");
     d.option("max_size", &FitOptions::max_size,
              "The longest side of an image, in pixels. Larger images always become smaller.")
         .also_called("resize texture_size")
         .between(16, 16384);
-    d.option("drop_names", &FitOptions::drop_names, "As in write.");
+    d.option("drop_names", &FitOptions::drop_names, "Removes names, as write: {drop_names: true} does.");
 }
 
 void verify_fit(const FitOptions& o, const Value& given, Problems& problems) {
@@ -86,7 +85,7 @@ void verify_fit(const FitOptions& o, const Value& given, Problems& problems) {
         refuse("budget", "neither 'budget' nor 'look' is given", "give budget: 500kB, look: 0.5%, or both",
                "E-MISSING");
     if (o.budget && !deferred("budget") && (o.budget->min || !(o.budget->max.value_or(0) > 0)))
-        refuse("budget", "the budget is one size above 0", "give budget: 500kB", "E-RANGE");
+        refuse("budget", "'budget' must be a single size above 0", "give budget: 500kB", "E-RANGE");
     const io::Codec* codec = o.path.text == "-" ? io::codec_named("glb") : io::codec_for(o.path.text);
     if (!deferred("path") &&
         (!codec || !codec->write || !codec->can.honours("meshopt") || codec->can.honours("tiles")))

@@ -58,8 +58,9 @@ void declare_bits(DeclareFields<Bits>& d) {
 }
 
 void declare_report(DeclareFields<FitReport>& d) {
-    d.field("bytes", &FitReport::bytes, "The size of the file, with its neighbours.").unit("bytes");
-    d.field("similarity", &FitReport::similarity, "100 less the difference.").unit("percent");
+    d.field("bytes", &FitReport::bytes, "The size of the file and of the files that it refers to.")
+        .unit("bytes");
+    d.field("similarity", &FitReport::similarity, "100 minus the difference.").unit("percent");
     d.field("difference", &FitReport::difference,
             "The root mean square difference of the pictures, as a share of the full range.")
         .unit("percent");
@@ -79,7 +80,8 @@ void declare_report(DeclareFields<FitReport>& d) {
         .only_when("normal maps became smaller");
     d.field("trials", &FitReport::tried, "The number of trials.");
     d.field("written", &FitReport::written,
-            "False if no choice fits; the other fields are then the nearest choice's.");
+            "Whether the file was written. It is false if no choice fits. The other fields then describe the "
+            "closest choice.");
     d.tell(lines_of);
 }
 
@@ -118,16 +120,16 @@ bool check_limits(const FitReport& r, const FitOptions& o, Context& context) {
     if (!small) {
         check = {.name = "budget", .passed = false, .expected = "at most " + sized(o.most_bytes())};
         check.found = static_cast<std::int64_t>(r.bytes);
-        check.found_words =
-            sized(r.bytes) + (o.look ? ", the least found that looks the same" : ", the least of all trials");
+        check.found_words = sized(r.bytes) + (o.look ? ", the smallest found that looks the same"
+                                                     : ", the smallest of all trials");
         check.max = static_cast<double>(o.most_bytes());
-        check.hint = fmt::format("this would fit: budget: {:.0f}", rounded_up(static_cast<double>(r.bytes)));
+        check.hint = fmt::format("use budget: {:.0f}", rounded_up(static_cast<double>(r.bytes)));
         context.check(check);
     }
     if (!alike) {
         check = {.name = "look", .passed = false, .expected = "at most " + percentage(100 * o.look->value)};
         check.found = r.difference;
-        check.found_words = percentage(r.difference) + ", the least of all trials";
+        check.found_words = percentage(r.difference) + ", the smallest of all trials";
         check.max = 100 * o.look->value;
         check.hint = "give a larger look, or compression: none";
         context.check(check);

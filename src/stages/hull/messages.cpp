@@ -3,9 +3,11 @@
 namespace facetmill {
 
 const RegisterMessages hull_messages{
-    {"E-HULL", "A part has no convex hull.",
-     "Exclude the part with `only` if all of its points are on a line, or give its faces a thickness with "
-     "`thicken`."},
+    {"E-HULL",
+     "No convex shape can be made around a part. Its points are on a line, its node scales axes differently, "
+     "or rounding is too coarse.",
+     "Exclude the part with `only: [\"!NAME\"]`, or use `transform: {bake: true}` if its node scales axes "
+     "differently."},
     {"W-HULL-FLAT", "A part is flat, so its hull has no volume.",
      "Give it a thickness with `thicken` before `hull`, or exclude it with `only`."},
 };

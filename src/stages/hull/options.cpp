@@ -40,7 +40,7 @@ void declare_hull(Declare<HullOptions>& d) {
     d.choice<HullShape>(
          "shape", &HullOptions::shape,
          {{"hull", HullShape::hull, "the convex hull"},
-          {"box", HullShape::box, "a box, turned to be small"},
+          {"box", HullShape::box, "an oriented box"},
           {"sphere", HullShape::sphere, "the smallest sphere, as a mesh around it"},
           {"capsule", HullShape::capsule, "a cylinder with round ends along the longest axis of the box"}},
          "The convex shape around the points.")
@@ -49,10 +49,9 @@ void declare_hull(Declare<HullOptions>& d) {
     d.choice<HullOptions::Per>("per", &HullOptions::per,
                                {{"part", HullOptions::Per::part, "each part gets its own shape"},
                                 {"scene", HullOptions::Per::scene, "one shape around all parts"}},
-                               "The points that share a shape.");
+                               "Which parts share a shape.");
     d.option("max_vertices", &HullOptions::max_vertices,
-             "The largest number of vertices. A hull with more is replaced by a simpler one around it. "
-             "Default: no "
+             "The largest number of vertices. A simpler hull replaces a hull with more vertices. Default: no "
              "limit.")
         .also_called("vertices max_verts maxNumVerticesPerCH")
         .between(12, 4096);

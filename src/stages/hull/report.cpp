@@ -12,7 +12,7 @@ namespace {
 void declare_shape(DeclareFields<HullShapeReport>& d) {
     using S = HullShapeReport;
     d.field("part", &S::part,
-            "The name of the part whose points are inside. With per: scene, the first one.");
+            "The name of the part inside the shape. With per: scene, the name of the first part.");
     d.field("name", &S::name, "The name of the shape.");
     d.field("vertices", &S::vertices, "The number of vertices.");
     d.field("faces", &S::faces, "The number of faces.");

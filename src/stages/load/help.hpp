@@ -26,9 +26,9 @@ Consecutive lines become one closed tube with mitred corners, which ends where a
 than two lines meet.
 
 Colours (COLOR_0) are linear in a scene, as in glTF.
-PLY, OFF, OBJ, STL, 3MF and Draco files hold sRGB colours: load makes them linear, and write makes them
-sRGB again.
-Bytes become 16 bits, because 8 bits of linear light cannot hold all dark tones.
+PLY, OFF, OBJ, STL, 3MF and Draco files hold sRGB colours. load converts them to linear colours, and
+write converts them back.
+8-bit colours become 16-bit colours, because 8 bits cannot hold all dark tones of linear colours.
 Colours of materials in an .mtl (Kd, Ke) are linear, as Blender reads and writes them.
 
 Broken meshes are loaded unchanged.

@@ -23,10 +23,10 @@ The table of faces lists the kind, the signed area and the second moments of eve
 The moments use the axes of its plane, as in section.
 For a plane z = constant, these are x and y.
 
-With per: part or per: scene, a table has a row for each part or for the scene.
-An overhang is the area of faces that look down with a slope below overhang_angle, without the faces
-that lie on the plate at the lowest point.
-The height is along the up axis, or along z if it is unknown.
+With per: part, a table has a row for each part. With per: scene, it has a single row.
+The overhang is the area of the faces that look down with a slope below overhang_angle.
+Faces that lie on the plate, at the lowest point, do not count.
+The height is measured along the up axis, or along z if the up axis is unknown.
 
 A planar polygon that intersects itself has the area, centroid and moments of its nonzero winding
 region.
@@ -55,7 +55,7 @@ Both are divided by a third of the area around the vertex.
 Statistics of curvature exclude the boundary.
 The result total_in_turns is the Euler number of a manifold, whatever its shape.
 
-A file for robots (.urdf for ROS, .mjcf or .xml for MuJoCo) has a link or body for each part.
+A file for robot simulators (.urdf for ROS, .mjcf or .xml for MuJoCo) has a link or body for each part.
 The inertia is about the centre of mass, along the axes of the scene, with lengths in metres.
 density is then the mass in kg of a cubic scene unit.
 

@@ -60,19 +60,19 @@ void declare_measure(Declare<MeasureOptions>& d) {
              "The value of an attribute where no number exists. Default: nan, which render shows as \"no "
              "value\" and PLY stores. Other formats store 0 instead of nan (W-NAN).");
     d.choice("per", &MeasureOptions::per,
-             {{"face", Per::face, "A row for each face."},
-              {"part", Per::part, "A row for each part, with its size, smallest wall and overhangs."},
-              {"scene", Per::scene, "One row for the whole scene, with the same columns."}},
-             "The rows of a table that path names.");
+             {{"face", Per::face, "a row for each face"},
+              {"part", Per::part, "a row for each part, with its size, smallest wall and overhangs"},
+              {"scene", Per::scene, "a single row for the scene, with the same columns"}},
+             "The rows of the tables in path.");
     d.option("overhang_angle", &MeasureOptions::overhang_angle,
              "The slope below which a face that looks down counts as an overhang, for per: part and per: "
              "scene.")
         .between(0, 90);
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files. The suffix selects the format: .json for all results, "
-             ".csv for a table, .jsonl for a table of parts or of the scene, .urdf or .mjcf for the mass, "
-             "centre of mass and inertia of each part in metres. - writes JSON to standard output. Columns "
-             "of a table of parts: part, " +
+             ".csv for a table, .jsonl for a table of parts or of the scene. .urdf and .mjcf store the mass, "
+             "centre of mass and inertia of each part, with lengths in metres. - writes JSON to standard "
+             "output. Columns of a table of parts: part, " +
                  model_column_names() + ", unit. Columns of a table of faces: " + face_table_help() + ".")
         .also_called(path_synonyms);
 }

@@ -36,13 +36,13 @@ struct NestReport {
 
 void declare(Declare<NestOptions>& d) {
     d.option("plate", &NestOptions::plate,
-             "The size of a plate: one length for a square, width and depth, or width, depth and the height "
-             "of the tallest part.")
+             "The size of a plate: one length for a square, or width and depth. A third length limits the "
+             "height of parts.")
         .also_called("bed size build_volume")
         .required()
         .primary();
     d.option("spacing", &NestOptions::spacing,
-             "The least space between parts. Default: 1/50 of the plate's shorter side.")
+             "The minimum distance between parts. Default: 1/50 of the plate's shorter side.")
         .also_called("gap margin distance")
         .at_least(0);
     d.option("plates", &NestOptions::plates, "The maximum number of plates. Default: no limit.").at_least(1);

@@ -4,9 +4,8 @@ namespace facetmill {
 
 const RegisterMessages normals_messages{
     {"W-NO-TANGENTS", "A part got no tangents, because it has no normals or lacks the texture coordinates.",
-     "Give the number of existing texture coordinates. With `normals: keep`, choose another method if the "
-     "part "
-     "has no normals."},
+     "Set `tangents` to the number of texture coordinates that the part has: 0 for TEXCOORD_0. If it has no "
+     "normals, use `method: smooth`."},
 };
 
 } // namespace facetmill

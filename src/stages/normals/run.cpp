@@ -29,9 +29,9 @@ void declare(Declare<NormalsOptions>& d) {
          {{"smooth", NormalKind::smooth,
            "the mean of the face normals around a vertex, weighted by the angles of the faces"},
           {"area", NormalKind::area,
-           "the mean weighted by the areas of the faces: large faces stay flat beside narrow bevels"},
+           "the mean weighted by the areas of the faces: large faces stay flat next to narrow bevels"},
           {"flat", NormalKind::flat, "the normals of the faces"},
-          {"keep", NormalKind::keep, "the normals of the scene, mended if necessary"},
+          {"keep", NormalKind::keep, "the normals of the scene, repaired if necessary"},
           {"none", NormalKind::none, "removes normals and tangents"}},
          "How to compute normals.")
         .primary();
@@ -46,8 +46,9 @@ void declare(Declare<NormalsOptions>& d) {
              "the file, the method computes them.")
         .also_called(with_synonyms)
         .also_called("from transfer");
-    d.option("tangents", &NormalsOptions::tangents,
-             "Computes tangents with MikkTSpace for the texture coordinates of this number, usually 0.")
+    d.option(
+         "tangents", &NormalsOptions::tangents,
+         "Computes tangents with MikkTSpace for the texture coordinates with this number: 0 for TEXCOORD_0.")
         .also_called("tangent mikktspace uv uvs")
         .between(0, 63);
 }
@@ -65,7 +66,7 @@ struct NormalsReport {
 void declare_part(DeclareFields<NormalsPart>& d) {
     d.field("part", &NormalsPart::part, "The name of the part.");
     d.field("split_corners", &NormalsPart::seams,
-            "Attribute tuples beyond one for each vertex, because of sharp edges and other seams.");
+            "The number of extra attribute tuples at vertices on sharp edges and other seams.");
     d.field("mended", &NormalsPart::mended,
             "Normals, tangents and sets of joint weights that did not have length or sum 1.");
     d.field("farthest", &NormalsPart::farthest, "The largest distance of a vertex from the other mesh.")
@@ -101,7 +102,7 @@ void add_tangents(Part& part, int uv_set, Context& context) {
                      fmt::format("part '{}' has no normals or no texture coordinates TEXCOORD_{}, so it gets "
                                  "no tangents",
                                  part.name, uv_set),
-                     "give the number of its texture coordinates, or leave the part out with `only`");
+                     "set tangents to the number of its texture coordinates, or exclude the part with only");
         return;
     }
     for (Primitive& p : part.mesh.primitives)

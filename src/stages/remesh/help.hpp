@@ -9,28 +9,31 @@ inline constexpr const char* about =
 inline constexpr const char* details =
     R"(In each iteration, edges longer than 4/3 of the length are split, and edges shorter than 4/5 are
 collapsed.
-Then edges are flipped towards six edges at each vertex, and vertices move to even places.
+Then edges are flipped so that most vertices get six edges, and vertices move to make triangles even.
 
 With length, all edges have nearly this length.
-With tolerance, strongly curved places get short edges and flat places long ones, so that faces stay
-within about this distance of the surface.
+With tolerance, strongly curved areas get short edges, and flat areas get long edges.
+Faces then stay within about this distance of the surface.
 The report gives the measured deviation, and W-REMESH-TOLERANCE warns if it is larger.
 
 Every vertex of the result is on the input surface.
 Boundaries, sharp edges (feature_angle), seams of attributes and borders of materials are kept.
-Their vertices only move along them, and their lines move by at most a 20th of the length.
-Vertices where such lines end or meet stay.
-Sharp edges in lines shorter than two lengths and than 5% of the diagonal count as noise.
-Edges with more than two faces, or with two faces in conflicting directions, are only split.
+Their vertices only move along such a line, and the line moves by at most a 20th of the length.
+Vertices where such lines end or meet do not move.
+A line of sharp edges counts as noise if it is shorter than twice the length and shorter than 5% of the
+diagonal.
+Edges with more than two faces, or with two faces in conflicting directions, are split and not otherwise
+changed.
 
 A closed mesh stays closed, and a manifold mesh stays manifold.
-No step turns a face by more than 60 degrees, but parts that are thinner than the length can intersect
-afterwards: `validate: {self_intersections: 0}` checks this.
+No step turns a face by more than 60 degrees, but thin walls can intersect if they are thinner than the
+length. Check this with `validate: {self_intersections: 0}`.
 
 Polygons are triangulated first.
 Attributes are interpolated at the nearest points of the input, on the same side of seams.
-Face attributes are copied from there.
-Seams that only normals make are merged below the feature angle, and flat shading stays flat.
+Face attributes are copied from the nearest faces.
+Seams where only normals differ are merged if the edge is not sharper than feature_angle.
+Flat shading stays flat.
 Vertices without faces are removed.
 
 The result has triangles only: quads are not available.

@@ -6,7 +6,7 @@ const RegisterMessages remesh_messages{
     {"W-REMESH-NO-AREA", "`remesh` left a part unchanged, because none of its faces has an area.",
      "Remove such faces with `clean`."},
     {"W-REMESH-TOLERANCE", "The result of `remesh` is farther from the input than `tolerance`.",
-     "Give a smaller `tolerance`, or a smaller `min_length` if edges of the shortest length are too long."},
+     "Give a smaller `tolerance`, or a smaller `min_length` if edges of this length are too long."},
 };
 
 } // namespace facetmill

@@ -39,7 +39,7 @@ void declare(Declare<RemeshOptions>& d) {
         .also_called("crease featuredeg sharp_angle angle")
         .between(0, 180);
     d.option("iterations", &RemeshOptions::iterations,
-             "The number of iterations. More make the triangles more even.")
+             "The number of iterations. More iterations make the triangles more even.")
         .also_called("steps passes iters n")
         .between(1, 100);
     d.option("measure", &RemeshOptions::measure, "Measures the deviation from the input.");
@@ -64,10 +64,10 @@ void declare_part(DeclareFields<RemeshedPart>& d) {
     d.field("feature_edges", &RemeshedPart::feature_edges,
             "Edges of the result that are boundaries, sharp edges, seams or borders of materials.");
     d.field("locked_edges", &RemeshedPart::locked_edges,
-            "Edges of the input that are not manifold, which are only split.");
-    d.field("shortest_edge", &RemeshedPart::shortest, "The shortest edge.").unit("scene units");
-    d.field("mean_edge", &RemeshedPart::mean, "The mean edge.").unit("scene units");
-    d.field("longest_edge", &RemeshedPart::longest, "The longest edge.").unit("scene units");
+            "Non-manifold edges of the input. They are split and not otherwise changed.");
+    d.field("shortest_edge", &RemeshedPart::shortest, "The length of the shortest edge.").unit("scene units");
+    d.field("mean_edge", &RemeshedPart::mean, "The mean length of the edges.").unit("scene units");
+    d.field("longest_edge", &RemeshedPart::longest, "The length of the longest edge.").unit("scene units");
     d.field("deviation", &RemeshedPart::deviation,
             "The largest measured distance between input and result, both ways.")
         .unit("scene units")

@@ -147,9 +147,10 @@ void declare_targets(Declare<SimplifyOptions>& d) {
              "The maximum number of remaining vertices, for all parts together.")
         .also_called(property_named("vertices")->also_called)
         .at_least(1);
-    d.option("max_error", &SimplifyOptions::max_error,
-             "The largest deviation from the input, measured in both directions; of skinned and morphed "
-             "parts, in the rest pose. W-REST-POSE warns when one of at most 32 sampled poses deviates more.")
+    d.option(
+         "max_error", &SimplifyOptions::max_error,
+         "The largest deviation from the input, measured in both directions. It applies to the rest pose of "
+         "skinned and morphed parts. W-REST-POSE warns if one of at most 32 sampled poses deviates more.")
         .also_called("error tolerance threshold epsilon deviation max_deviation")
         .above(0);
     declare_share(d);

@@ -135,7 +135,7 @@ void warn_of_poses(const Part& part, const PosedDeviation& posed, std::optional<
         fmt::format("simplify: part '{}' deviates by {:.6g} ({}) in {}, above max_error ({:.6g}), which "
                     "bounds only the rest pose",
                     part.name, posed.maximum, percentage(posed.percent), posed.pose, *max_error),
-        "use a smaller max_error, or simplify: 50%, a ratio, for parts that move");
+        "use a smaller max_error, or a ratio, such as simplify: 50%, for parts that move");
 }
 
 } // namespace

@@ -213,10 +213,10 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
     d.object("deviation", &SimplifiedPart::deviation, "The deviation from the input of this stage.",
              declare_deviation_fields)
         .only_when("measure or certify is on");
-    d.object(
-         "posed_deviation", &SimplifiedPart::posed,
-         "The deviation in at most 32 poses: keys of all animations, evenly chosen, and morph targets alone.",
-         declare_posed)
+    d.object("posed_deviation", &SimplifiedPart::posed,
+             "The deviation in at most 32 poses: evenly chosen keys of all animations, and each morph target "
+             "alone.",
+             declare_posed)
         .only_when("the part has a skin or morph targets, and its deviation is measured");
 }
 

@@ -38,10 +38,10 @@ Cavities and pieces smaller than a cube with the thickness as its side are remov
 An open surface becomes the solid enclosed by its two sides and its walls.
 
 With drain, vertical holes connect each cavity with the outside.
-A hole begins where a ball of its diameter lies lowest in the cavity, and passes through the wall
-below.
-Several holes keep two diameters apart and take the lowest places in turn.
-The up axis is that of the scene, or +Z if unknown.
+A hole starts at the lowest place in the cavity where a ball of its diameter fits, and passes through
+the wall below.
+Further holes take the next lowest places, at least two diameters apart.
+Lowest refers to the up axis of the scene, or to +Z if the up axis is unknown.
 
 Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and replaces
 lines by cylinders.)";

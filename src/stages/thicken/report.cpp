@@ -44,7 +44,7 @@ auto of_drain(T DrainResult::*member) {
 
 void declare_drained(DeclareFields<ThickenedPart>& d) {
     constexpr const char* drain = "drain is given";
-    d.list("drain_holes", of_drain(&DrainResult::holes), "The holes of drain.", declare_hole)
+    d.list("drain_holes", of_drain(&DrainResult::holes), "Each hole that drain makes.", declare_hole)
         .only_when(drain);
     d.field("cavities", of_drain(&DrainResult::cavities), "The cavities of the solid.").only_when(drain);
     d.field("closed_cavities", of_drain(&DrainResult::closed_cavities), "Cavities without a hole.")
@@ -143,7 +143,7 @@ void warn_of_cavities(const Part& part, const DrainResult& drained, Context& con
     else if (drained.closed_cavities > 0)
         warn(fmt::format("has {} that no drain hole fits into",
                          counted(drained.closed_cavities, "cavity", "cavities")),
-             "use a smaller diameter of drain");
+             "give drain a smaller diameter");
 }
 
 void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor& wall,

@@ -15,18 +15,19 @@ A point on a border belongs to the tile that begins at the border.
 To process each tile, use foreach: {part: "*"}.
 
 With fit, each part has its own grid, which begins at its bounding box.
-It has the fewest tiles that fit into the given box, and they are equally long.
+The grid has the fewest tiles that fit into the given box. All tiles are equally long.
 Tiles are numbered layer by layer from bottom to top, such as NAME.04.x0.y1.z1.
 A part that fits stays whole.
-A tile with its pegs fits as well.
+Each tile fits together with its pegs.
 
 Pegs join each pair of neighbouring tiles.
-They point upward along their axis, so tiles go together row by row, then layer by layer.
-Each peg and hole keeps the distance `wall` from the surface, from other borders and from other pegs.
-W-TILE-PEGS names the pairs of tiles without room for a peg.
+They point in the positive direction of their axis, so you can assemble the tiles row by row,
+then layer by layer.
+Each peg and hole is at least `wall` away from the surface, from other borders and from other pegs.
+W-TILE-PEGS lists the pairs of tiles without room for a peg.
 With pegs, the tiles' volumes add up to the volume of the part plus pegs minus holes.
 Pegs have 32 sides.
-A hole of radius r encloses a circle of radius r, which is the radius of the peg plus clearance.
+A hole encloses a circle whose radius is the radius of the peg plus clearance.
 
 Borders match exactly because neighbouring tiles come from the same cut.
 The rules of clip with keep: both apply to attributes, caps and faces in the plane.

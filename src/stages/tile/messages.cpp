@@ -8,7 +8,7 @@ const RegisterMessages tile_messages{
     {"W-TILE-PEGS",
      "Two neighbouring tiles have no peg, because the solid is too thin where they meet, or other pegs are "
      "too near.",
-     "Use smaller `diameter`, `length` or `wall` of `pegs`, or glue these tiles."},
+     "Use a smaller `diameter`, `length` or `wall` of `pegs`, or glue these tiles."},
 };
 
 } // namespace facetmill

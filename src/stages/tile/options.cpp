@@ -23,16 +23,19 @@ void declare_pegs(Declare<PegOptions>& d) {
                        {"magnets", PegKind::magnets, "a hole in both tiles, each for a whole magnet"}},
                       "What joins two tiles.");
     d.option("length", &PegOptions::length,
-             "How far a peg stands out of its tile, or the length of a dowel or magnet. Default: the "
-             "diameter, and twice the diameter for dowels.")
+             "The length of a peg outside its tile, or the length of a dowel or magnet. Default: the "
+             "diameter, or twice the diameter for dowels.")
         .above(0);
     d.option("clearance", &PegOptions::clearance,
              "The gap around a peg, dowel or magnet, on each side and at the end. Default: 1/20 of the "
              "diameter.")
         .at_least(0);
-    d.option("wall", &PegOptions::wall, "The least material around a hole. Default: half of the diameter.")
+    d.option("wall", &PegOptions::wall,
+             "The minimum thickness of the material around a hole. Default: half of the diameter.")
         .at_least(0);
-    d.option("count", &PegOptions::count, "The maximum number for each pair of tiles.").between(1, 100);
+    d.option("count", &PegOptions::count,
+             "The maximum number of pegs, dowels or magnets for each pair of tiles.")
+        .between(1, 100);
 }
 
 /// Checks a list of lengths: one, or one for each axis.
@@ -67,8 +70,8 @@ void declare_tile_options(Declare<TileOptions>& d) {
         .primary();
     d.option("fit", &TileOptions::fit,
              "Cuts each part into the fewest tiles that fit into a box of this size, such as the bed of a "
-             "printer: one length, or one for each axis. The grid begins at the part's bounding box. Tiles "
-             "are equally long and numbered from bottom to top. Turns cap on.")
+             "printer. Give one length, or one for each axis. The grid begins at the part's bounding box. "
+             "Tiles are equally long and numbered from bottom to top. Turns cap on.")
         .also_called("bed build_volume plate", "(fit: [200mm, 200mm, 200mm])");
     d.option("axes", &TileOptions::axes,
              "The axes along which the grid cuts: any of x, y and z. Default: xy for size, xyz for fit.");
@@ -143,7 +146,7 @@ std::vector<TileAxis> fitted_grid(const TileOptions& o, const Box& box, double p
                                   Context& context) {
     std::vector<TileAxis> axes;
     const std::string cut = o.cut_axes();
-    // A part is not cut because its file stores 32-bit floats, which may be one step too far apart.
+    // Rounding to 32-bit floats in the input can make a part too large by one step. It is not cut for that.
     const double rounding = float32_ulp(box);
     for (std::size_t i = 0; i < cut.size(); ++i) {
         const auto axis = static_cast<std::size_t>(cut[i] - 'x');
@@ -155,7 +158,7 @@ std::vector<TileAxis> fitted_grid(const TileOptions& o, const Box& box, double p
                         fmt::format("tile: pegs of length {:.6g} leave no room for a tile in {:.6g}",
                                     protrusion, bed),
                         "use shorter pegs, or dowels");
-        // All tiles but the last have pegs, so n tiles hold n * bed - (n - 1) * protrusion.
+        // All tiles except the last have pegs, so n tiles hold n * bed - (n - 1) * protrusion.
         const double n = std::ceil((extent - rounding - protrusion) / (bed - protrusion));
         if (!(n < 1e6))
             throw Error(ErrorKind::limit, "E-TILE",

@@ -11,15 +11,15 @@ inline constexpr const char* details =
 Both meshes must be in the same place: use align before if they are not.
 Corners on a seam of the scene get the value of their own side.
 
-Without attributes, everything is taken except normals, tangents, morph targets and materials.
-Take normals with the stage normals.
+By default, transfer takes all attributes except normals, tangents, morph targets and materials.
+Use normals: {with: ...} to take normals.
 Existing attributes of the same name are replaced.
-The attribute distance gets the distance of each vertex from the other mesh, in scene units, as
-evidence: render: {attribute: distance} shows it.
+The vertex attribute `distance` stores the distance of each vertex from the other mesh, in scene units.
+To see it, use render: {attribute: distance}.
 
 A face that crosses a seam of the other mesh mixes values from both sides.
 W-TRANSFER-SEAMS counts such faces.
 To avoid them, cut the scene along the same seams first.
-Joint numbers are those of the other file, so the scene needs the same skin (W-TRANSFER-SKIN).)";
+Joint numbers refer to the skin of the other file, so the scene needs the same skin (W-TRANSFER-SKIN).)";
 
 } // namespace facetmill::help::transfer

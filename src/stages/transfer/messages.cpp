@@ -4,13 +4,14 @@ namespace facetmill {
 
 const RegisterMessages transfer_messages{
     {"W-TRANSFER-NONE", "`transfer` found no attribute to take in the other mesh.",
-     "List the attributes of the file with `facetmill info`, and give the name of one of them."},
+     "Run `facetmill info FILE` to list the attributes of the other mesh, and give their names as "
+     "`attributes`."},
     {"W-TRANSFER-SEAMS",
      "Faces cross a seam of the other mesh, so their texture coordinates mix values from both sides.",
-     "Cut the scene along these seams, or take other attributes only."},
+     "Cut the scene along these seams, or list other attributes in `attributes`."},
     {"W-TRANSFER-SKIN",
      "A part without a skin got joints and weights, which viewers do not use without a skin.",
-     "Give the part a skin with the same joints, or list the attributes to take without these."},
+     "Use a part that has a skin with the same joints, or list `attributes` without JOINTS_0 and WEIGHTS_0."},
 };
 
 } // namespace facetmill

@@ -31,7 +31,8 @@ void declare(Declare<TransferOptions>& d) {
         .also_called(attribute_synonyms)
         .also_called("names attribute");
     d.option("distance", &TransferOptions::distance,
-             "The name of the vertex attribute for the distance. An empty name adds none.");
+             "The name of the vertex attribute that stores the distance from the other mesh. An empty name "
+             "stores none.");
 }
 
 struct TransferredPart {
@@ -133,7 +134,7 @@ class PartTransfer {
                           fmt::format("transfer: {} of part '{}' cross a seam of '{}', so their texture "
                                       "coordinates mix both sides",
                                       counted(result.across_seams, "face"), part.name, o_.with.text),
-                          "cut the part along the same seams, or list other attributes");
+                          "cut the part along the same seams, or list other names in attributes");
         if (has_skin && !part.skinned)
             context_.warn(
                 "W-TRANSFER-SKIN",

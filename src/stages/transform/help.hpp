@@ -11,10 +11,10 @@ orient_for, fit, translate, centre, ground.
 The order of the options does not matter.
 All operations work in world space.
 They change the nodes of the parts, not the meshes, unless bake is on.
-With orient_for: printing, the parts turn together until as little area as possible overhangs.
-Among directions that differ by less than 1/1000 of the surface, the lowest height wins.
-The candidates are the faces of the convex hull, the largest flat areas and fixed directions.
-The best are refined in steps of down to half a degree.
+With orient_for: printing, all parts turn together so that as little area as possible overhangs.
+If overhangs differ by less than 1/1000 of the surface area, the direction with the lowest height is used.
+The stage tries the current direction, faces of the convex hull, large flat areas and fixed directions.
+It refines the best directions in steps from 8 degrees down to half a degree.
 The report gives the overhanging area and the height before and after the turn.
 Mirrored faces keep their front side, as glTF requires.
 The ground is at 0 along the up axis, or along +Z if the up axis is unknown.

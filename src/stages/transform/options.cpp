@@ -88,7 +88,7 @@ void declare_transform(Declare<TransformOptions>& d) {
              "A percentage refers to the current side, so 50% halves the parts.")
         .also_called("size resize fit_to max_size longest normalize normalise height", "(fit: 120mm)");
     d.option("shrink_only", &TransformOptions::shrink_only,
-             "Leaves parts that already fit at their size, so fit never enlarges them.")
+             "Keeps the size of parts that already fit, so fit never enlarges parts.")
         .also_called("only_shrink max");
     d.option("translate", &TransformOptions::translate, "Three lengths.")
         .also_called("move offset translation position");

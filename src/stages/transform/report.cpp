@@ -33,8 +33,8 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
             "The factor that the change of unit applied to lengths.");
     d.field("fit_factor", &TransformReport::fit_factor, "The scale factor of fit.")
         .only_when("fit is given and the scene has parts");
-    d.object("orientation", &TransformReport::orientation,
-             "The result of orient_for, in the size before fit.", declare_orientation)
+    d.object("orientation", &TransformReport::orientation, "The result of orient_for, measured before fit.",
+             declare_orientation)
         .only_when("orient_for is printing and the scene has faces");
     d.field("unit", &TransformReport::unit, "The unit of the scene after this stage, or unknown.");
     d.field("up", &TransformReport::up, "The up axis after this stage, or unknown.");
