@@ -25,6 +25,8 @@ class Unpacker {
 
     void add(const std::string& path, io::Span bytes) {
         if (path.ends_with('/')) return; // a folder of a zip
+        // Further data that macOS stores for each file.
+        if (path.starts_with("__MACOSX/") || fs::path(path).filename().string().starts_with("._")) return;
         const fs::path below = fs::path(path).lexically_normal();
         if (!stays_inside(path, below)) refuse(path, "its name leads out of the archive's folder");
         if (!names_.insert(lower_case(below.string())).second) refuse(path, "another file has the same name");
@@ -87,6 +89,14 @@ bool is_archive_name(const std::string& path) {
 
 namespace {
 
+/// The path below the output folder. Refuses files outside, whose names readers refuse.
+const std::string& name_in_archive(const std::string& path) {
+    if (fs::path(path).is_absolute() || path.starts_with("../"))
+        throw Error(ErrorKind::output, "E-ARCHIVE", fmt::format("'{}' is outside the output folder", path),
+                    "write below the output folder");
+    return path;
+}
+
 /// Calls take for the files of all successful assets.
 void for_each_file(const Summary& summary,
                    const std::function<void(const std::string& path, io::Span bytes)>& take) {
@@ -94,7 +104,7 @@ void for_each_file(const Summary& summary,
         if (out.verdict != Outcome::Verdict::ok) continue;
         for (const auto* all : {&out.outputs, &out.reports})
             for (const std::string& path : *all)
-                take(path, io::Input::open(summary.output_dir / path).stored());
+                take(name_in_archive(path), io::Input::open(summary.output_dir / path).stored());
     }
 }
 

@@ -40,9 +40,9 @@ struct ReadBack {
 /// Decodes the file and compares it with the scene (in the file's convention). The number of faces (polygons
 /// or their triangles) and of lines must match. Vertices used by faces, and ends of lines, must lie within
 /// the tolerance of float32 or the grid of their counterparts, in both directions. Throws an output error
-/// (E-READBACK) otherwise, and if a second reader (Codec::read_again) finds other contents. Changes to closedness, manifoldness, orientation, and degenerate or duplicate
-/// faces are reported in `losses`, without an error. written: the codec's result. Only faces that it counts
-/// as dropped may be missing.
+/// (E-READBACK) otherwise, and if a second reader (Codec::read_again) finds other contents. Changes to
+/// closedness, manifoldness, orientation, and degenerate or duplicate faces are reported in `losses`, without
+/// an error. written: the codec's result. Only faces that it counts as dropped may be missing.
 [[nodiscard]] ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene,
                                  const WriteSettings& settings, const Written& written = {});
 

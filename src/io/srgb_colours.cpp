@@ -72,6 +72,8 @@ void change_colours(Scene& scene, const Change& change) {
 
 } // namespace
 
+void make_colours_linear(Scene& scene) { change_colours(scene, make_linear); }
+
 decltype(Codec::read) with_linear_colours(decltype(Codec::read) read) {
     return [read = std::move(read)](const Input& input, const ReadSettings& settings, ReadLog& log) {
         Scene scene = read(input, settings, log);

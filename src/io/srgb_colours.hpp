@@ -14,4 +14,7 @@ namespace facetmill::io {
 /// bytes that were read. Floats stay floats.
 [[nodiscard]] decltype(Codec::write) with_srgb_colours(decltype(Codec::write) write);
 
+/// Makes the colours of a scene that a writer of with_srgb_colours got linear again, for pictures.
+void make_colours_linear(Scene& scene);
+
 } // namespace facetmill::io

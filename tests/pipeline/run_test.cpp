@@ -340,7 +340,8 @@ TEST_CASE("a pipeline is read from a file, whose folder its inputs are relative 
     Ground ground;
     test::put(ground.directory / "p.yaml", "facetmill: 1\nstages:\n  - test-load: a.ply\n");
     Problems problems;
-    const auto plan = pipeline::plan_source(pipeline::read_pipeline(ground.directory / "p.yaml"), {}, problems);
+    const auto plan =
+        pipeline::plan_source(pipeline::read_pipeline(ground.directory / "p.yaml"), {}, problems);
     CHECK(problems.size() == 0);
     CHECK(planned_inputs(plan) == std::vector<std::filesystem::path>{ground.directory / "a.ply"});
     CHECK_THROWS_AS(pipeline::read_pipeline(ground.directory / "q.yaml"), Error);

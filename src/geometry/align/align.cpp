@@ -25,9 +25,13 @@ PointCloud cloud_of(const Surface& surface, const AlignSettings& s) {
     PointCloud cloud;
     for (const SurfaceSample& sample : sample_area(surface, s.samples, s.seed))
         cloud.points.push_back(sample.point);
-    if (cloud.points.empty())
-        for (const Index v : surface.corners)
-            if (is_finite(surface.positions[v])) cloud.points.push_back(surface.positions[v]);
+    if (cloud.points.empty()) {
+        const std::size_t step =
+            std::max<std::size_t>(1, surface.corners.size() / std::max<std::size_t>(s.samples, 1));
+        for (std::size_t c = 0; c < surface.corners.size(); c += step)
+            if (const Vec3& p = surface.positions[surface.corners[c]]; is_finite(p))
+                cloud.points.push_back(p);
+    }
     const auto n = static_cast<double>(std::max<std::size_t>(cloud.points.size(), 1));
     for (const Vec3& p : cloud.points) cloud.centre += p / n;
     Symmetric spread;

@@ -137,6 +137,9 @@ ConvexSurface shape_around(const ConvexSurface& hull, const HullSettings& s, Hul
         for (const Vec3& p :
              around_unit_ball(s.shape == HullShape::sphere ? s.max_vertices : s.max_vertices / 2))
             corners.push_back(end + p * capsule.radius);
+    if (s.max_vertices > 0 && corners.size() > s.max_vertices) // two icosahedra have 24
+        if (const ConvexSurface both = convex_surface(corners); both.points.size() > s.max_vertices)
+            corners = polytope_around(both, s.max_vertices);
     return certified(corners, (capsule.ends[0] + capsule.ends[1]) / 2, hull.points);
 }
 

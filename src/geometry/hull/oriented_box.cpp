@@ -58,7 +58,7 @@ void measure_ends(BoxCandidate& c, std::span<const Vec3> points) {
 constexpr std::size_t tried_faces = 256, tried_edges = 64; // the largest and the longest
 
 /// The best box with a side across the normal n and another along an edge of the outline in this direction.
-BoxCandidate best_across(const Vec3& n, std::span<const Vec3> points) {
+BoxCandidate best_across(const Vec3& n, std::span<const Vec3> points, double thin) {
     const Vec3 u = axis_across(n), v = cross(n, u);
     double low = HUGE_VAL, high = -HUGE_VAL;
     std::vector<FlatPoint> flat;
@@ -103,7 +103,7 @@ BoxCandidate best_across(const Vec3& n, std::span<const Vec3> points) {
     best.axes[2] = n;
     best.axes[0] = normalised(u * along.x + v * along.y);
     best.axes[1] = cross(n, best.axes[0]);
-    best.size = least * (high - low);
+    best.size = least * std::max(high - low, thin);
     return best;
 }
 
@@ -128,10 +128,12 @@ FittedBox oriented_box(const ConvexSurface& hull) {
     std::vector<BoxCandidate> all(normals.size() + 1);
     all.back() = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     measure_ends(all.back(), hull.points);
-    all.back().size = (all.back().high[0] - all.back().low[0]) * (all.back().high[1] - all.back().low[1]) *
-                      (all.back().high[2] - all.back().low[2]);
+    const auto extent = [&](std::size_t k) { return all.back().high[k] - all.back().low[k]; };
+    // Flat boxes count as this thick, so that their areas are compared.
+    const double thin = 0x1p-40 * std::max({extent(0), extent(1), extent(2)});
+    all.back().size = std::max(extent(0), thin) * std::max(extent(1), thin) * std::max(extent(2), thin);
     parallel_for(
-        normals.size(), [&](std::size_t i) { all[i] = best_across(normals[i], hull.points); }, 8);
+        normals.size(), [&](std::size_t i) { all[i] = best_across(normals[i], hull.points, thin); }, 8);
     // The box along the axes is last, and wins unless another is smaller by more than rounding.
     BoxCandidate best = all.back();
     best.size *= 1 - 1e-9;

@@ -77,8 +77,10 @@ class SourceFinder {
             return face != none && (region == none || regions_.from[face] == region);
         };
         if (fits(found.face)) return found.face;
-        const Index middle = closest_point(tree_, lookup.middle).face;
-        if (fits(middle)) return middle;
+        for (const double share : {0.01, 0.1, 0.5, 1.0}) {
+            const Index face = closest_point(tree_, mix(lookup.at, lookup.middle, share)).face;
+            if (fits(face)) return face;
+        }
         if (region != none && region < any_face_.size() && any_face_[region] != none)
             return any_face_[region];
         return found.face != none ? found.face : 0;
@@ -104,29 +106,31 @@ class Lookups {
 
     std::vector<Lookup> of_wedges() const {
         std::vector<Lookup> all(to_.wedge_count());
-        std::vector<Index> faces(all.size()), wedges_of(to_.vertex_count());
-        std::vector<std::uint8_t> mixed(to_.vertex_count());
+        std::vector<Index> wedges_of(to_.vertex_count());
+        std::vector<std::uint8_t> used(all.size());
+        std::vector<std::uint8_t> several(all.size()); // in several regions: values are continuous there
         for (Index w = 0; w < all.size(); ++w) ++wedges_of[to_.vertex_of_wedge(w)];
-        std::vector<Index> region_of(to_.vertex_count(), none);
         for (Index f = 0; f < to_.face_count(); ++f) {
             const Vec3 middle = corner_mean(to_, f);
+            const Index region = regions_.to.empty() ? none : regions_.to[f];
             for (Index c = to_.face_begin(f); c < to_.face_end(f); ++c) {
-                Lookup& wedge = all[to_.corners[c]];
-                wedge.middle += middle;
-                ++faces[to_.corners[c]];
-                if (regions_.to.empty()) continue;
-                wedge.region = regions_.to[f];
-                Index& first = region_of[to_.vertex(c)];
-                if (first != none && first != wedge.region) mixed[to_.vertex(c)] = 1;
-                first = wedge.region;
+                const Index w = to_.corners[c];
+                if (!used[w]) { // one face, because the mean of several is off a curved surface
+                    used[w] = 1;
+                    all[w].middle = middle;
+                    all[w].region = region;
+                } else if (all[w].region != region) {
+                    several[w] = 1;
+                }
             }
         }
         parallel_for(all.size(), [&](std::size_t w) {
             const Index v = to_.vertex_of_wedge(static_cast<Index>(w));
             Lookup& wedge = all[w];
             wedge.at = wedge.asked = to_.positions[v];
-            wedge.middle = faces[w] > 0 ? wedge.middle / faces[w] : wedge.at;
-            if (wedges_of[v] > 1 || mixed[v]) wedge.asked = mix(wedge.at, wedge.middle, towards_faces);
+            if (!used[w]) wedge.middle = wedge.at;
+            if (several[w]) wedge.region = none;
+            if (wedges_of[v] > 1) wedge.asked = mix(wedge.at, wedge.middle, towards_faces);
         });
         return all;
     }

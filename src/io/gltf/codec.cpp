@@ -437,7 +437,10 @@ void warn_of_losses(Patch& patch, const std::string& name, const Json& other, bo
     std::vector<std::string> lost;
     for (const char* list : {"animations", "skins", "cameras", "extensions"})
         if (!joined && other.contains(list) && !other[list].empty()) lost.push_back(list);
-    if (has_other_metadata(patch.builder.json()["asset"], other)) lost.emplace_back("metadata");
+    const Json extras = other.value("extras", Json());
+    const bool loses_extras = !extras.empty() && extras != patch.builder.json().value("extras", Json());
+    if (loses_extras || has_other_metadata(patch.builder.json()["asset"], other))
+        lost.emplace_back("metadata");
     if (!lost.empty())
         patch.warn("W-MERGED",
                    fmt::format("{} of '{}' are written, without its {}",

@@ -124,10 +124,11 @@ void declare_layout(Declare<WriteSettings>& d) {
          {"reference", Textures::reference, "not copied: the file refers to the images of the input"}},
         "The location of texture images. Images inside a glTF input stay inside a .glb or .bin, and become "
         "separate files for an .obj.");
-    d.option("drop_names", &WriteSettings::drop_names,
-             "Removes names of nodes, meshes, images, skins and accessors from glTF, and the name of the "
-             "original program (generator). Scenes, animations, cameras and materials keep their names, and so do "
-             "nodes that have nothing else, because applications find them by name.");
+    d.option(
+        "drop_names", &WriteSettings::drop_names,
+        "Removes names of nodes, meshes, images, skins and accessors from glTF, and the name of the "
+        "original program (generator). Scenes, animations, cameras and materials keep their names, and so do "
+        "nodes that have nothing else, because applications find them by name.");
     d.option("lods", &WriteSettings::lods,
              "Writes glTF with MSFT_lod. The parts X.lod1, X.lod2, ... become levels of detail of X instead "
              "of separate nodes.");

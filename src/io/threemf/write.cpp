@@ -10,6 +10,7 @@
 #include "io/flatten.hpp"
 #include "io/images/png.hpp"
 #include "io/metadata.hpp"
+#include "io/srgb_colours.hpp"
 #include "io/threemf/model.hpp"
 #include "io/threemf/zip.hpp"
 #include "mesh/equal_meshes.hpp"
@@ -377,7 +378,8 @@ class ModelWriter {
 };
 
 /// The picture that file managers and slicers show for the file.
-Bytes thumbnail_of(const Scene& scene) {
+Bytes thumbnail_of(Scene scene) {
+    make_colours_linear(scene);
     PictureSettings settings;
     settings.width = settings.height = 256;
     settings.coarse_occlusion = true;

@@ -150,8 +150,11 @@ void put(Bytes& out, std::uint64_t value, int bytes) {
 /// The fields from the required version to the lengths of the name and the extra field. An entry and the
 /// directory store the same fields. The time is the earliest that zip can hold: 1 January 1980.
 void put_description(Bytes& out, const ArchiveFile& file, const Bytes& packed) {
-    put(out, 20, 2); // version 2.0
-    put(out, 0, 2);  // flags
+    constexpr std::uint64_t utf8 = 0x800;
+    const bool is_ascii =
+        std::all_of(file.path.begin(), file.path.end(), [](unsigned char c) { return c < 0x80; });
+    put(out, 20, 2);                  // version 2.0
+    put(out, is_ascii ? 0 : utf8, 2); // flags
     put(out, deflated, 2);
     put(out, 0, 2);    // 0 o'clock
     put(out, 0x21, 2); // 1 January 1980
@@ -167,11 +170,13 @@ void put_bytes(Bytes& out, Span bytes) { out.insert(out.end(), bytes.begin(), by
 } // namespace
 
 Bytes make_archive(const std::vector<ArchiveFile>& files) {
+    if (files.size() >= most16)
+        throw Error(ErrorKind::limit, "E-SIZE", "a zip archive holds at most 65,534 files", "write a .tar");
     Bytes out, directory;
     for (const ArchiveFile& file : files) {
         const Bytes packed = io::packed(file.bytes, Packing::deflate);
         if (file.bytes.size() >= most32 || out.size() + packed.size() >= most32)
-            throw Error(ErrorKind::limit, "E-SIZE", "the scene takes more than 4 GiB as 3MF",
+            throw Error(ErrorKind::limit, "E-SIZE", "a zip archive holds at most 4 GiB",
                         "write several files, or another format");
         const auto name = std::as_bytes(std::span(file.path));
         put(directory, entry_magic, 4);

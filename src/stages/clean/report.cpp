@@ -55,7 +55,11 @@ void declare_part(DeclareFields<CleanedPart>& d) {
                 help)
             .only_when("hidden is true");
     };
-    hidden("hidden_faces", &HiddenCounts::faces, "Removed faces that no ray reached.");
+    hidden("hidden_faces", &HiddenCounts::faces, "Removed faces that no ray reached.").field().count =
+        [](const void* part) {
+            const auto& removed = static_cast<const CleanedPart*>(part)->hidden;
+            return removed ? std::uint64_t{removed->faces} : std::uint64_t{0};
+        };
     hidden("hidden_area", &HiddenCounts::area, "The area of the removed hidden faces.")
         .unit("square scene units");
     hidden("outer_rays", &HiddenCounts::outer_rays, "Rays from outside, for the whole scene.");

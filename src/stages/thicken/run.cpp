@@ -77,7 +77,9 @@ class SurfaceThickener {
         settings.to_world = part.transform;
         DrainResult drained = drain(std::move(known.result.mesh), settings);
         known.result.mesh = std::exchange(drained.mesh, {});
-        known.result.changes = changes_in_sequence(known.result.changes, std::exchange(drained.changes, {}));
+        if (!drained.holes.empty()) // otherwise the mesh is as it was
+            known.result.changes =
+                changes_in_sequence(known.result.changes, std::exchange(drained.changes, {}));
         known.drained = std::move(drained);
     }
 

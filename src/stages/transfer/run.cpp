@@ -1,5 +1,6 @@
 #include "base/text/glob.hpp"
 #include "base/text/words.hpp"
+#include "geometry/edit/equal_wedges.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stage/reference_mesh.hpp"
 #include "stage/stage.hpp"
@@ -150,6 +151,7 @@ class PartTransfer {
 Scene run(Scene scene, const TransferOptions& o, Context& context, TransferReport& report) {
     ReferenceMesh other(o.with, scene, context);
     std::erase_if(other.mesh().attributes, [&](const Attribute& a) { return !is_taken(a, o); });
+    merge_equal_wedges(other.mesh()); // other attributes split wedges where these have no seam
     if (other.mesh().attributes.empty())
         context.warn(
             "W-TRANSFER-NONE",

@@ -176,10 +176,11 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
         problems.add(mark, "E-FORMAT", fmt::format("{} can be read but not written", codec->name),
                      suggestion("", names));
     else if (codec->can.honours("tiles") && !is_tileset_name(o.path.text))
-        problems.add(path ? path->mark : mark, "E-FORMAT",
-                     fmt::format("tiles go to a folder next to a tileset, but '{}' is not the path of a tileset",
-                                 o.path.text),
-                     "give a path that ends in .json, such as out/tileset.json");
+        problems.add(
+            path ? path->mark : mark, "E-FORMAT",
+            fmt::format("tiles go to a folder next to a tileset, but '{}' is not the path of a tileset",
+                        o.path.text),
+            "give a path that ends in .json, such as out/tileset.json");
     else if (!codec->can.companion.empty() && o.path.text == "-")
         problems.add(mark, "E-FORMAT",
                      fmt::format("a {} needs a second file, which standard output cannot hold", codec->name),
