@@ -160,7 +160,6 @@ TEST_CASE("hints for missing arguments and bad numbers fit, and following them l
     };
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"run", "--threads", "0", "web"},
-          std::vector<std::string>{"batch", "-o", "out", "--threads", "0", "web"},
           std::vector<std::string>{"info", "--threads", "0", "web"}})
         CHECK(hint(words) == "give a number from 1 to 4096, or leave out --threads");
     CHECK(hint({"batch", "web", "--input", "a.stl"}) == "add it, for example --output-dir out");

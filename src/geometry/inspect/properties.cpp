@@ -420,8 +420,8 @@ constexpr Property table[] = {
      .help = "The smallest distance through the air between surfaces of a part that face each other. It is "
              "measured like wall_thickness, along the outward normals. It is 0 at grooves sharper than 45 "
              "degrees. Use merge first to measure between parts.",
-     .hint = "join parts that touch with clean: {self_intersections: union}, or scale the solid with "
-             "transform, because no stage widens gaps",
+     .hint = "use clean: {self_intersections: union} to join parts that touch, or transform to scale the "
+             "solid: no stage widens gaps",
      .measure = smallest_gap,
      .of_faces = gaps,
      .counts_locations = true},

@@ -243,7 +243,7 @@ TEST_CASE("properties of 3MF triangles come from the triangle, else from the obj
         mesh + "</object>";
     const auto [scene, log] = load(archive(model(resources, "<item objectid=\"1\"/>")));
     REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].message == "elements that cannot be kept are skipped: texture2dgroup (1)");
+    CHECK(log.warnings[0].message == "the texture 1 of group 9 does not exist");
     REQUIRE(scene.materials.size() == 2);
     CHECK(scene.materials[0].name == "grey");
     CHECK(std::abs(scene.materials[0].base_colour[0] - 0.2158605) < 1e-6); // 128 of sRGB in linear light
