@@ -43,7 +43,7 @@ def compilations(build):
     """(directory, arguments for clang, precompiled header, file) of what the build compiles without CGAL and OpenMesh."""
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         made = re.search(r" -o (\S+)", entry["command"]).group(1)
-        if re.search(r"facetmill_(cgal|openmesh|oracle)\.dir/|cmake_pch|\.c\.o$", made):
+        if re.search(r"facetmill_(cgal|hulls|openmesh|oracle)\.dir/|cmake_pch|\.c\.o$", made):
             continue
         words, kept, header = iter(shlex.split(entry["command"])[1:]), [], None
         for word in words:
