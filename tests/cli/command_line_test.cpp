@@ -158,9 +158,8 @@ TEST_CASE("hints for missing arguments and bad numbers fit, and following them l
         const auto at = said.find("hint: ");
         return at == said.npos ? said : said.substr(at + 6, said.find('\n', at) - at - 6);
     };
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"run", "--threads", "0", "web"},
-          std::vector<std::string>{"info", "--threads", "0", "web"}})
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"run", "--threads", "0", "web"},
+                                                  std::vector<std::string>{"info", "--threads", "0", "web"}})
         CHECK(hint(words) == "give a number from 1 to 4096, or leave out --threads");
     CHECK(hint({"batch", "web", "--input", "a.stl"}) == "add it, for example --output-dir out");
     CHECK(hint({"export", "web", "--input", "a.stl", "-o", "out"}) == "add it, for example --to ninja");
