@@ -29,10 +29,11 @@ struct SourceRegions {
 /// triangle. Both are in the same space. tree: over surface_of(from). The mix has the barycentric weights of
 /// the point, the largest first.
 ///
-/// A wedge of a vertex with several wedges, or at the border of a region, is looked up a ten thousandth of
-/// the way towards its faces. So it gets the values of its own side of a seam. A face gets the source at its
-/// centre. If the region of the nearest face differs, the centre of a face of the element is tried, then any
-/// face of the region. O(n log n), parallel; the result does not depend on the number of threads.
+/// A wedge of a vertex with several wedges is looked up a ten thousandth of the way towards one of its faces.
+/// So it gets the values of its own side of a seam. A wedge in several regions takes any of them, because its
+/// values are continuous there. A face gets the source at its centre. If the region of the nearest face
+/// differs, points on the way to the centre of a face of the element are tried, then any face of the region.
+/// O(n log n), parallel; the result does not depend on the number of threads.
 [[nodiscard]] NearestSources nearest_sources(const Mesh& from, const FaceTree& tree, const Mesh& to,
                                              const SourceRegions& regions = {});
 

@@ -153,3 +153,23 @@ TEST_CASE("remesh: meshes without a usable area", "[remesh]") {
     CHECK(test::failure_id([] { static_cast<void>(remesh(shapes::cube(), to_length(1e-9))); }) == "E-LIMIT");
     CHECK(test::failure_id([] { static_cast<void>(remesh(shapes::cube(), to_length(0))); }) == "E-RANGE");
 }
+
+TEST_CASE("remesh: texture coordinates are continuous across a sharp edge without a seam", "[remesh]") {
+    Mesh roof; // two slopes that meet at x = 0, with u = x
+    roof.positions = {{-1, 0, -1}, {0, 0, 0}, {1, 0, -1}, {-1, 1, -1}, {0, 1, 0}, {1, 1, -1}};
+    roof.corners = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+    std::vector<float> uv;
+    for (const Vec3& p : roof.positions) {
+        uv.push_back(static_cast<float>(p.x));
+        uv.push_back(static_cast<float>(p.y));
+    }
+    roof.attributes = {{"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, uv}};
+    const Mesh even = remesh(roof, to_length(0.1)).mesh;
+    const Attribute* found = even.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(found);
+    double most = 0;
+    for (Index w = 0; w < even.wedge_count(); ++w)
+        most = std::max(most, std::abs(found->value(w, 0) - even.positions[even.vertex_of_wedge(w)].x));
+    CHECK(even.face_count() > 200);
+    CHECK(most < 1e-6);
+}
