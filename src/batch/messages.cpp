@@ -4,8 +4,12 @@ namespace facetmill {
 
 const RegisterMessages batch_messages{
     {"E-ARCHIVE",
-     "A file in an archive has a name that leads out of the archive's folder, or that occurs twice.",
-     "Make the archive again from inside its folder, with relative names.", ErrorKind::malformed},
+     "A file in an archive has a name that leads out of the archive's folder, or that occurs twice. Or an "
+     "output "
+     "to pack is outside the output folder.",
+     "Make the archive again from inside its folder, with relative names. Write outputs below the output "
+     "folder.",
+     {ErrorKind::malformed, ErrorKind::output}},
     {"E-TABLE",
      "A table of params for a batch cannot be read. A row has too few or too many cells, a quote is not "
      "closed, or a column name is missing or repeated.",

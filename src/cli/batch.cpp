@@ -70,8 +70,8 @@ void add_result_options(Arguments& arguments, BatchOptions& options) {
         .not_negative();
     arguments
         .add("--summary", &options.summary,
-             "by-asset lists every asset. by-id groups errors and warnings by id, in at most ten lines on "
-             "the\nterminal. Reports then list no assets. Use --table-out to list them.")
+             "by-asset lists every asset. by-id groups errors and warnings by id, in at most ten "
+             "lines\non the terminal. Reports then list no assets. Use --table-out to list them.")
         .one_of({"by-asset", "by-id"});
     arguments.add("--pictures", &options.pictures,
                   "Also writes a picture of each asset as PNG into this folder below the output folder.\nThe "

@@ -7,7 +7,7 @@ const RegisterMessages stage_messages{
      "Give `min` and `max`, or `centre` and `size`. `max` must be greater than `min` along all three axes.",
      ErrorKind::usage},
     {"E-REFERENCE", "The mesh file that a stage takes values from has no faces.",
-     "Set `with` to a mesh file that has faces."},
+     "Set `with` to a mesh file that has faces.", ErrorKind::stage},
     {"W-BIND-POSE",
      "Stages work on the bind pose of a skinned part. Viewers and pictures show the pose of the joints, so a "
      "plane or box can cut a different place than you see.",

@@ -94,6 +94,9 @@ RUNS = [
     "load open.off ! align cubes.obj ! transfer cubes.obj",
     "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
     "generate torus ! wrap 10%",
+    "load mapped.gltf ! fit f.glb --budget 100kB --pixels 64",
+    "generate cube --unit mm ! tile --fit .6mm --pegs .1mm ! nest 20mm",
+    "generate sphere --unit mm ! thicken .1mm --drain .2mm ! transform --orient_for printing --fit 1mm --shrink_only",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
 ]
 
@@ -122,6 +125,11 @@ class Results(Case):
         self.write("hourglass.off", HOURGLASS)
         self.write("crossed.off", CROSSED)
         self.write("textured.gltf", json.dumps(TEXTURED))
+        mapped = json.loads(json.dumps(TEXTURED))
+        mapped["images"].append({"uri": data_uri(png(40, 40))})
+        mapped["textures"].append({"source": len(mapped["images"]) - 1})
+        mapped["materials"][0]["normalTexture"] = {"index": len(mapped["textures"]) - 1}
+        self.write("mapped.gltf", json.dumps(mapped))
         # Two grids of 4 x 4 quads that share an edge.
         grid = "".join(f"o {n}\n" + "".join(f"v {4 * k + i} {j} 0\n" for j in range(5) for i in range(5))
                        + "".join(f"f {b} {b + 1} {b + 6} {b + 5}\n" for j in range(4) for i in range(4)

@@ -81,7 +81,9 @@ void verify_fit(const FitOptions& o, const Value& given, Problems& problems) {
         const Value* value = given.is_map() ? given.find(option) : nullptr;
         return value && value->deferred;
     };
-    if (!o.budget && !o.look && !deferred("budget") && !deferred("look"))
+    // `off` may come from params of a pipeline whose condition then skips the stage.
+    const bool names_one = given.is_map() && (given.find("budget") || given.find("look"));
+    if (!o.budget && !o.look && !names_one)
         refuse("budget", "neither 'budget' nor 'look' is given", "give budget: 500kB, look: 0.5%, or both",
                "E-MISSING");
     if (o.budget && !deferred("budget") && (o.budget->min || !(o.budget->max.value_or(0) > 0)))

@@ -169,6 +169,9 @@ void write_choice(const Search& search, const Candidate& chosen, const Scene& su
 }
 
 Scene run(Scene scene, const FitOptions& o, Context& context, FitReport& report) {
+    if (!o.budget && !o.look)
+        throw Error(ErrorKind::usage, "E-MISSING", "fit: 'budget' and 'look' are both off",
+                    "give budget: 500kB, look: 0.5%, or both");
     const Scene subject = selected(scene, context);
     std::vector<Compression> all{o.compression};
     if (o.compression == Compression::smallest) all = {Compression::meshopt, Compression::draco};

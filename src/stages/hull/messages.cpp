@@ -2,12 +2,7 @@
 
 namespace facetmill {
 
-const RegisterMessages hull_messages{
-    {"E-HULL",
-     "No convex shape can be made around a part. Its points are on a line, its node scales axes differently, "
-     "or rounding is too coarse.",
-     "Exclude the part with `only: [\"!NAME\"]`, or use `transform: {bake: true}` if its node scales axes "
-     "differently."},
+const RegisterMessages hull_stage_messages{
     {"W-HULL-FLAT", "A part is flat, so its hull has no volume.",
      "Give it a thickness with `thicken` before `hull`, or exclude it with `only`."},
 };

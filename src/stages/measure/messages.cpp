@@ -4,7 +4,8 @@ namespace facetmill {
 
 const RegisterMessages measure_messages{
     {"E-MASS", "A part has no positive mass, which robot simulators need.",
-     "Close the part with `clean` or `wrap`, turn it outward with `orient`, or exclude it with `only`."},
+     "Close the part with `clean` or `wrap`, turn it outward with `orient`, or exclude it with `only`.",
+     ErrorKind::stage},
     {"W-SHELLS",
      "Closed shells of a part lie within each other and all face outward, or they pass through each other. "
      "The sum of their volumes, which the property volume gives, counts some space several times. The "

@@ -1,0 +1,12 @@
+#include "base/message_ids.hpp"
+
+namespace facetmill {
+
+const RegisterMessages wrap_messages{
+    {"E-WRAP", "A wrap could not be made, or a test of its guarantees failed.",
+     "Use a larger `offset`. If the coordinates are far from the origin, move the part there with "
+     "`transform` first.",
+     ErrorKind::stage},
+};
+
+} // namespace facetmill
