@@ -3,11 +3,12 @@ in one of the runs: a field that nothing writes, or a key that nothing declares,
 
 import base64
 import json
+import shutil
 import struct
 import unittest
 import zlib
 
-from support import Case, main
+from support import Case, SOURCE, main
 
 try:
     import jsonschema
@@ -94,7 +95,8 @@ RUNS = [
     "load open.off ! align cubes.obj ! transfer cubes.obj",
     "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
     "generate torus ! wrap 10%",
-    "load mapped.gltf ! fit f.glb --budget 100kB --pixels 64",
+    "load AnimatedMorphCube.gltf ! split ! simplify 50%",
+    "load mapped.gltf ! fit f.glb --look 20% --pixels 64",
     "generate cube --unit mm ! tile --fit .6mm --pegs .1mm ! nest 20mm",
     "generate sphere --unit mm ! thicken .1mm --drain .2mm ! transform --orient_for printing --fit 1mm --shrink_only",
     "generate cube --name a ! generate sphere --name b ! transform --scale 0.01 --only b ! write d.glb --draco.grid scene ! write e.glb --quantize.grid scene ! validate --for web ! write f.glb",
@@ -125,10 +127,16 @@ class Results(Case):
         self.write("hourglass.off", HOURGLASS)
         self.write("crossed.off", CROSSED)
         self.write("textured.gltf", json.dumps(TEXTURED))
+        for file in (SOURCE / "tests/data/morph-cube").iterdir():
+            shutil.copy(file, self.dir)
+        # The same triangle with texture coordinates, a normal map and larger images, which fit makes smaller.
         mapped = json.loads(json.dumps(TEXTURED))
-        mapped["images"].append({"uri": data_uri(png(40, 40))})
-        mapped["textures"].append({"source": len(mapped["images"]) - 1})
-        mapped["materials"][0]["normalTexture"] = {"index": len(mapped["textures"]) - 1}
+        mapped["images"] = [{"uri": data_uri(png(200, 160))}, {"uri": data_uri(png(160, 200))}]
+        mapped["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 1
+        mapped["accessors"].append({"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"})
+        mapped["bufferViews"].append({"buffer": 1, "byteLength": 24})
+        uvs = base64.b64encode(struct.pack("<6f", 0, 0, 1, 0, 0, 1)).decode()
+        mapped["buffers"].append({"byteLength": 24, "uri": "data:application/octet-stream;base64," + uvs})
         self.write("mapped.gltf", json.dumps(mapped))
         # Two grids of 4 x 4 quads that share an edge.
         grid = "".join(f"o {n}\n" + "".join(f"v {4 * k + i} {j} 0\n" for j in range(5) for i in range(5))

@@ -7,6 +7,8 @@ const RegisterMessages wrap_messages{
      "Use a larger `offset`. If the coordinates are far from the origin, move the part there with "
      "`transform` first.",
      ErrorKind::stage},
+    {"E-WRAP-LARGE", "A wrap would have too many faces.", "Use a larger `alpha`, or raise `max_faces`.",
+     ErrorKind::limit},
 };
 
 } // namespace facetmill
