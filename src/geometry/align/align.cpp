@@ -119,7 +119,7 @@ class Icp {
         std::vector<Index> order(points.size());
         std::iota(order.begin(), order.end(), Index{0});
         const auto count = std::max<std::size_t>(
-            1, static_cast<std::size_t>(keep_ * static_cast<double>(points.size()) + 0.5));
+            1, static_cast<std::size_t>(std::llround(keep_ * static_cast<double>(points.size()))));
         std::sort(order.begin(), order.end(), [&](Index a, Index b) {
             return found[a].distance != found[b].distance ? found[a].distance < found[b].distance : a < b;
         });

@@ -15,32 +15,32 @@ namespace {
 class Diagonals {
   public:
     Diagonals(const WorkingMesh& m, Index h)
-        : m_(m), h_(h), a(m.from(h)), b(m.to(h)), c(m.opposite(h)), d(m.opposite(m.twins[h])) {}
+        : m_(m), h_(h), a_(m.from(h)), b_(m.to(h)), c_(m.opposite(h)), d_(m.opposite(m.twins[h])) {}
 
-    [[nodiscard]] double shape_before() const { return std::min(shape(a, b, c), shape(b, a, d)); }
-    [[nodiscard]] double shape_after() const { return std::min(shape(a, d, c), shape(b, c, d)); }
+    [[nodiscard]] double shape_before() const { return std::min(shape(a_, b_, c_), shape(b_, a_, d_)); }
+    [[nodiscard]] double shape_after() const { return std::min(shape(a_, d_, c_), shape(b_, c_, d_)); }
 
     /// Whether the flip keeps the topology, and both new faces look like both old ones.
     [[nodiscard]] bool is_allowed() const {
-        if (c == d || m_.degrees[a] <= 3 || m_.degrees[b] <= 3) return false;
+        if (c_ == d_ || m_.degrees[a_] <= 3 || m_.degrees[b_] <= 3) return false;
         for (const Index side : {h_, m_.twins[h_]}) // locked edges keep their half edges
             if ((m_.flags[WorkingMesh::next(side)] | m_.flags[WorkingMesh::previous(side)]) & locked)
                 return false;
         const auto many = [&](Index v) { return m_.kinds[v] == VertexKind::many; };
-        if (many(c) && many(d)) return false;
-        Vec3 first = m_.normal(a, b, c), second = m_.normal(b, a, d);
-        if (shape(a, b, c) < sliver) first = second;
-        if (shape(b, a, d) < sliver) second = first;
+        if (many(c_) && many(d_)) return false;
+        Vec3 first = m_.normal(a_, b_, c_), second = m_.normal(b_, a_, d_);
+        if (shape(a_, b_, c_) < sliver) first = second;
+        if (shape(b_, a_, d_) < sliver) second = first;
         for (const Vec3& before : {first, second})
-            for (const Vec3& after : {m_.normal(a, d, c), m_.normal(b, c, d)})
+            for (const Vec3& after : {m_.normal(a_, d_, c_), m_.normal(b_, c_, d_)})
                 if (!may_turn(before, after) || !(dot(after, after) > 0)) return false;
-        return !m_.are_joined(c, d);
+        return !m_.are_joined(c_, d_);
     }
 
     /// How far the numbers of edges at the vertices are from the best, as the sum of squares. edges: added to
     /// those of c and d, and taken from those of a and b.
     [[nodiscard]] int excess(int edges) const {
-        return square(a, -edges) + square(b, -edges) + square(c, edges) + square(d, edges);
+        return square(a_, -edges) + square(b_, -edges) + square(c_, edges) + square(d_, edges);
     }
 
   private:
@@ -55,7 +55,7 @@ class Diagonals {
     }
 
     const WorkingMesh& m_;
-    Index h_, a, b, c, d;
+    Index h_, a_, b_, c_, d_;
 };
 
 template <class Better>

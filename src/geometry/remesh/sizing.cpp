@@ -25,7 +25,13 @@ struct CurvatureSum {
         zz += weight * unit.z * unit.z;
     }
     CurvatureSum& operator+=(const CurvatureSum& b) {
-        xx += b.xx, xy += b.xy, xz += b.xz, yy += b.yy, yz += b.yz, zz += b.zz, area += b.area;
+        xx += b.xx;
+        xy += b.xy;
+        xz += b.xz;
+        yy += b.yy;
+        yz += b.yz;
+        zz += b.zz;
+        area += b.area;
         return *this;
     }
     /// The larger absolute value of the two curvatures. The third eigenvalue is about 0, so their sum is the
