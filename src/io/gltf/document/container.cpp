@@ -4,6 +4,7 @@
 #include "base/ordered_set.hpp"
 #include "base/text/words.hpp"
 #include "io/gltf/document/accessor.hpp"
+#include "io/gltf/document/tinygltf_files.hpp"
 #include "io/images/image_files.hpp"
 #include "parallel/memory.hpp"
 #include "platform/file_bytes.hpp"
@@ -16,10 +17,6 @@
 #include <fmt/format.h>
 #include <set>
 #include <system_error>
-// Images are decoded elsewhere, so tinygltf may be built without its decoders.
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#include <tiny_gltf.h>
 #include <utility>
 
 namespace facetmill::io::gltf {
@@ -98,28 +95,14 @@ Bytes join_glb(std::string_view json, Span binary) {
     return out;
 }
 
-// --- Only this file uses tinygltf, to resolve buffers: tinygltf decodes data URIs and calls our callbacks
-// for files. It gets one buffer at a time, never the whole document or images. Its parser does not check
+// --- tinygltf resolves buffers: it decodes data URIs and asks for files.
+// It gets one buffer at a time, never the whole document or images. Its parser does not check
 // references, and refuses buffers that only EXT_meshopt_compression needs. Its model also loses unknown
 // contents (64-bit integers, nulls, empty objects).
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The file that the callbacks may read: one checked file, up to a limit.
-struct Neighbour {
-    fs::path path;
-    std::size_t bytes = 0;
-    int error = 0; ///< errno of a failed read
-};
-
-bool file_exists(const std::string&, void* user) {
-    std::error_code ignored;
-    return fs::is_regular_file(static_cast<const Neighbour*>(user)->path, ignored);
-}
-
-std::string same_path(const std::string& path, void*) { return path; }
 
 /// Reads at most `most` bytes of the file; returns errno, 0 for success.
 int read_prefix(const fs::path& path, std::size_t most, std::vector<unsigned char>& out) {
@@ -139,34 +122,25 @@ int read_prefix(const fs::path& path, std::size_t most, std::vector<unsigned cha
     return 0;
 }
 
-bool read_file(std::vector<unsigned char>* out, std::string* error, const std::string&, void* user) {
-    auto& neighbour = *static_cast<Neighbour*>(user);
-    neighbour.error = read_prefix(neighbour.path, neighbour.bytes, *out);
-    if (neighbour.error != 0) *error = "cannot be read";
-    return neighbour.error == 0;
-}
+/// The file that tinygltf may read: one checked file, up to a limit.
+struct Neighbour : TinygltfFiles {
+    Neighbour(fs::path file, std::size_t most) : path(std::move(file)), bytes(most) {}
 
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-}
+    bool exists(const std::string&) override {
+        std::error_code ignored;
+        return fs::is_regular_file(path, ignored);
+    }
+    std::size_t size() const override { return bytes; }
+    bool read(const std::string&, std::vector<unsigned char>& out, std::string& reason) override {
+        error = read_prefix(path, bytes, out);
+        if (error != 0) reason = "cannot be read";
+        return error == 0;
+    }
 
-[[maybe_unused]] bool file_size(std::size_t* out, std::string*, const std::string&, void* user) {
-    *out = static_cast<const Neighbour*>(user)->bytes;
-    return true;
-}
-
-/// tinygltf's callbacks; newer versions ask for the size first.
-template <class Callbacks>
-Callbacks callbacks_for(Neighbour& neighbour) {
-    Callbacks callbacks{};
-    callbacks.FileExists = file_exists;
-    callbacks.ExpandFilePath = same_path;
-    callbacks.ReadWholeFile = read_file;
-    callbacks.WriteWholeFile = write_nothing;
-    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = file_size;
-    callbacks.user_data = &neighbour;
-    return callbacks;
-}
+    fs::path path;
+    std::size_t bytes;
+    int error = 0; ///< errno of a failed read
+};
 
 int hex(char c) {
     return c >= '0' && c <= '9'   ? c - '0'
@@ -192,11 +166,7 @@ Bytes resolve_with_tinygltf(const JsonCursor& buffer, const std::string& uri, Ne
     const Json document = {{"asset", {{"version", "2.0"}}},
                            {"buffers", {{{"uri", uri}, {"byteLength", neighbour.bytes}}}}};
     const std::string text = document.dump();
-    tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(neighbour));
-    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
-                             const unsigned char*, int, void*) { return true; },
-                          nullptr);
+    tinygltf::TinyGLTF loader = loader_for(neighbour);
     tinygltf::Model model;
     std::string error, warning;
     const bool loaded =

@@ -3,6 +3,7 @@
 #include "base/fast_json.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/document/container.hpp"
+#include "io/gltf/document/tinygltf_files.hpp"
 #include "mesh/drawn_box.hpp"
 #include "parallel/memory.hpp"
 
@@ -10,9 +11,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <set>
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#include <tiny_gltf.h>
 
 namespace facetmill::io::gltf {
 
@@ -35,57 +33,35 @@ class Differences {
     std::vector<std::string> found_;
 };
 
-// tinygltf asks these functions for files. Images are not decoded, so a byte stands for each.
+/// The neighbours of a written file. Images are not decoded, so a byte stands for each.
+class WrittenFiles : public TinygltfFiles {
+  public:
+    explicit WrittenFiles(const Input& file) : file_(file) {}
 
-bool exists(const std::string&, void*) { return true; }
-
-std::string same(const std::string& path, void*) { return path; }
-
-bool read_neighbour(std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                    void* user) {
-    if (!path.ends_with(".bin")) {
-        out->assign(1, 0);
-        return true;
-    }
-    try {
-        const Input file = static_cast<const Input*>(user)->beside(path);
-        out->resize(file.bytes().size());
-        if (!out->empty()) std::memcpy(out->data(), file.bytes().data(), out->size());
-        return true;
-    } catch (const Error& e) {
-        *error = e.diagnostics().front().message;
-        return false;
-    }
-}
-
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-    return false;
-}
-
-template <class Callbacks>
-Callbacks callbacks_for(const Input& file) {
-    Callbacks callbacks{};
-    callbacks.FileExists = exists;
-    callbacks.ExpandFilePath = same;
-    callbacks.ReadWholeFile = read_neighbour;
-    callbacks.WriteWholeFile = write_nothing;
-    // Newer versions ask for the size first, only to compare it with a limit.
-    if constexpr (requires { callbacks.GetFileSizeInBytes; })
-        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
-            *size = 1;
+    bool read(const std::string& path, std::vector<unsigned char>& out, std::string& error) override {
+        if (!path.ends_with(".bin")) {
+            out.assign(1, 0);
             return true;
-        };
-    callbacks.user_data = const_cast<Input*>(&file);
-    return callbacks;
-}
+        }
+        try {
+            const Input neighbour = file_.beside(path);
+            out.resize(neighbour.bytes().size());
+            if (!out.empty()) std::memcpy(out.data(), neighbour.bytes().data(), out.size());
+            return true;
+        } catch (const Error& e) {
+            error = e.diagnostics().front().message;
+            return false;
+        }
+    }
+
+  private:
+    const Input& file_;
+};
 
 /// Returns what tinygltf says against the file, or an empty text.
 std::string load(const Input& file, tinygltf::Model& model) {
-    tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(file));
-    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
-                             const unsigned char*, int, void*) { return true; },
-                          nullptr);
+    WrittenFiles files(file);
+    tinygltf::TinyGLTF loader = loader_for(files);
     const Span bytes = file.bytes();
     std::string error, warning;
     const auto size = static_cast<unsigned>(bytes.size());
