@@ -2,13 +2,13 @@
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"
+#include "base/text/spelling.hpp"
 #include "base/text/words.hpp"
 #include "batch/causes.hpp"
 #include "batch/words.hpp"
 #include "report/html_parts.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 
 namespace facetmill::batch {
@@ -158,9 +158,7 @@ std::string search_text(const Asset& asset, const Outcome& out) {
     for (const auto& file : out.files) text += " " + file.path;
     for (const auto* all : {&out.errors, &out.warnings})
         for (const auto& d : *all) text += " " + d.id;
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(c < 0x80 ? std::tolower(c) : c); });
-    return text;
+    return lower_case(std::move(text));
 }
 
 /// The rows of the assets. Pictures are embedded until the page would become too large for a browser to open

@@ -35,15 +35,7 @@ PointCloud cloud_of(const Surface& surface, const AlignSettings& s) {
     const auto n = static_cast<double>(std::max<std::size_t>(cloud.points.size(), 1));
     for (const Vec3& p : cloud.points) cloud.centre += p / n;
     Symmetric spread;
-    for (const Vec3& p : cloud.points) {
-        const Vec3 d = p - cloud.centre;
-        spread.xx += d.x * d.x;
-        spread.xy += d.x * d.y;
-        spread.xz += d.x * d.z;
-        spread.yy += d.y * d.y;
-        spread.yz += d.y * d.z;
-        spread.zz += d.z * d.z;
-    }
+    for (const Vec3& p : cloud.points) spread.add_square(p - cloud.centre);
     cloud.axes = eigen(spread).vectors;
     return cloud;
 }

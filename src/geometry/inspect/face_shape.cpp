@@ -1,4 +1,5 @@
 // The properties that each face has: angles, edges, aspect ratio and planarity.
+#include "base/math/angle.hpp"
 #include "base/math/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "mesh/aspect_ratio.hpp"
@@ -26,9 +27,7 @@ namespace {
 
 constexpr double degrees = 180 / pi;
 
-double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
-    return arc_tangent(length(cross(b - at, c - at)), dot(b - at, c - at)) * degrees;
-}
+double angle(const Vec3& at, const Vec3& b, const Vec3& c) { return angle_between(b - at, c - at) * degrees; }
 
 double corner_angle(const Mesh& mesh, Index f, Index c) {
     return angle(mesh.point(c), mesh.point(previous_corner(mesh, f, c)), mesh.point(next_corner(mesh, f, c)));

@@ -1,4 +1,5 @@
 // Implements edges, corners and curvature of geometry/measure/measure.hpp.
+#include "base/math/angle.hpp"
 #include "base/math/portable_math.hpp"
 #include "geometry/measure/pieces.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -29,8 +30,6 @@ std::vector<Vec3> area_vectors(const Mesh& mesh) {
     });
     return areas;
 }
-
-double angle_between(const Vec3& a, const Vec3& b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
 
 /// How the surface turns at an edge. NaN unless the edge has two faces that run along it in opposite
 /// directions.

@@ -34,22 +34,13 @@ void add(Sums& a, const Sums& b) {
     add(a.spread, b.spread);
 }
 
-void add_square(Symmetric& s, const Vec3& v, double weight) {
-    s.xx += weight * v.x * v.x;
-    s.xy += weight * v.x * v.y;
-    s.xz += weight * v.x * v.z;
-    s.yy += weight * v.y * v.y;
-    s.yz += weight * v.y * v.z;
-    s.zz += weight * v.z * v.z;
-}
-
 /// Adds the tetrahedron from the origin to a triangle.
 void add_tetrahedron(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c) {
     const double volume = dot(a, cross(b, c));
     const Vec3 sum = a + b + c;
     sums.volume += volume;
     sums.solid += sum * volume;
-    for (const Vec3& v : {a, b, c, sum}) add_square(sums.spread, v, volume);
+    for (const Vec3& v : {a, b, c, sum}) sums.spread.add_square(v, volume);
 }
 
 /// Adds a triangle of the shell. area: twice the triangle's area, negative where the fan of a concave
@@ -57,7 +48,7 @@ void add_tetrahedron(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c) {
 void add_sheet(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c, double area) {
     const Vec3 sum = a + b + c;
     sums.shell += sum * area;
-    for (const Vec3& v : {a, b, c, sum}) add_square(sums.sheet, v, area);
+    for (const Vec3& v : {a, b, c, sum}) sums.sheet.add_square(v, area);
 }
 
 void add_face(Sums& sums, const Mesh& mesh, Index f, const Vec3& from, std::vector<Vec3>& p) {
@@ -134,7 +125,7 @@ ShellMass shell_of(const Sums& sums, const Vec3& from) {
     const Vec3 centroid = sums.shell / (3 * sums.area);
     shell.centroid = from + centroid;
     shell.spread = sums.sheet * (1.0 / 24);
-    add_square(shell.spread, centroid, -shell.area);
+    shell.spread.add_square(centroid, -shell.area);
     return shell;
 }
 
@@ -146,7 +137,7 @@ SolidMass solid_of(const Sums& sums, const Vec3& from) {
     const Vec3 centroid = sums.solid / (4 * sums.volume);
     solid.centroid = from + centroid;
     solid.spread = sums.spread * (1.0 / 120);
-    add_square(solid.spread, centroid, -solid.volume);
+    solid.spread.add_square(centroid, -solid.volume);
     return solid;
 }
 
@@ -215,7 +206,7 @@ ShellMass joined(const ShellMass& a, const ShellMass& b) {
     const Vec3 apart = b.centroid - a.centroid; // relative to a, as below
     sum.centroid = a.centroid + apart * (b.area / sum.area);
     add(sum.spread, b.spread);
-    add_square(sum.spread, apart, a.area * (b.area / sum.area));
+    sum.spread.add_square(apart, a.area * (b.area / sum.area));
     return sum;
 }
 
@@ -228,7 +219,7 @@ SolidMass joined(const SolidMass& a, const SolidMass& b) {
     const Vec3 apart = b.centroid - a.centroid;
     sum.centroid = a.centroid + apart * (b.volume / sum.volume);
     add(sum.spread, b.spread);
-    add_square(sum.spread, apart, a.volume * (b.volume / sum.volume));
+    sum.spread.add_square(apart, a.volume * (b.volume / sum.volume));
     return sum;
 }
 

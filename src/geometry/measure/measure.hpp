@@ -28,6 +28,15 @@ struct Statistics {
 /// A symmetric 3 x 3 matrix.
 struct Symmetric {
     double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    /// Adds the product of v with itself.
+    void add_square(const Vec3& v, double weight = 1) {
+        xx += weight * v.x * v.x;
+        xy += weight * v.x * v.y;
+        xz += weight * v.x * v.z;
+        yy += weight * v.y * v.y;
+        yz += weight * v.y * v.z;
+        zz += weight * v.z * v.z;
+    }
     Vec3 operator*(const Vec3& v) const {
         return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
                 xz * v.x + yz * v.y + zz * v.z};

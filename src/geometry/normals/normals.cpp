@@ -1,5 +1,6 @@
 #include "geometry/normals/normals.hpp"
 
+#include "base/math/angle.hpp"
 #include "base/math/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/normals/one_ring.hpp"
@@ -17,7 +18,7 @@ double angle_at(const Mesh& mesh, Index f, Index c) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     const Vec3 to = normalised(mesh.point(next_corner(c, begin, end)) - mesh.point(c));
     const Vec3 from = normalised(mesh.point(previous_corner(c, begin, end)) - mesh.point(c));
-    return arc_tangent(length(cross(to, from)), dot(to, from));
+    return angle_between(to, from);
 }
 
 /// The faces of a mesh, and how their normals are combined.

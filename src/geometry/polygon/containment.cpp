@@ -1,3 +1,4 @@
+#include "base/math/angle.hpp"
 #include "base/math/portable_math.hpp"
 #include "base/math/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
@@ -68,7 +69,7 @@ double angle_sum(const Vec3& q, std::span<const Vec3> convex) {
         const Vec3 a = convex[i] - q, b = convex[i + 1 == convex.size() ? 0 : i + 1] - q;
         // The arc cosine of P. Bourke, "Determining if a point lies on the interior of a polygon" (1987),
         // loses half the digits of small angles. This arc tangent does not.
-        sum += arc_tangent(length(cross(a, b)), dot(a, b));
+        sum += angle_between(a, b);
     }
     return sum;
 }

@@ -65,11 +65,6 @@ class PrintDirections {
             total_ += length(areas_.back());
         }
         corners_ = hull_.points.empty() ? surface.positions : hull_.points;
-        const auto before = [](const Vec3& a, const Vec3& b) {
-            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-        };
-        std::sort(corners_.begin(), corners_.end(), before);
-        corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
     }
 
     PrintDirectionResult run() const {

@@ -33,15 +33,9 @@ std::optional<Spot> freely_moved(const WorkingMesh& m, const Anchor& anchor, Ind
 /// Where a vertex of a line goes: towards the middle of its neighbours, unless the line turns there.
 std::optional<Spot> moved_along(const WorkingMesh& m, const Anchor& anchor, Index v) {
     constexpr double straight = 0.94; // cosine of 20 degrees
-    std::array<Index, 2> ends{none, none};
-    std::size_t count = 0;
-    m.around(v, [&](Index h) {
-        if (m.flags[h] & feature && count < 2) ends[count++] = m.to(h);
-        if (m.twins[WorkingMesh::previous(h)] == none && count < 2) ends[count++] = m.opposite(h);
-        return true;
-    });
-    if (count < 2) return {};
-    const Vec3 &p = m.points[v], &q = m.points[ends[0]], &r = m.points[ends[1]];
+    const auto ends = m.line_ends(v);
+    if (!ends) return {};
+    const Vec3 &p = m.points[v], &q = m.points[(*ends)[0]], &r = m.points[(*ends)[1]];
     if (!(dot(normalised(p - q), normalised(r - p)) > straight)) return {};
     const Vec3 along = normalised(r - q), move = along * (dot(along, (q + r) * 0.5 - p) * 0.5);
     auto spot = anchor.on_lines(p + move);

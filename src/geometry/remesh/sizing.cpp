@@ -1,6 +1,6 @@
 #include "geometry/remesh/sizing.hpp"
 
-#include "base/math/portable_math.hpp"
+#include "base/math/angle.hpp"
 #include "parallel/parallel.hpp"
 
 #include <queue>
@@ -8,9 +8,6 @@
 namespace facetmill::remeshing {
 
 namespace {
-
-/// The angle between two vectors.
-double angle_between(const Vec3& a, const Vec3& b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
 
 /// A symmetric tensor, summed over the edges at a vertex.
 struct CurvatureSum {
@@ -68,15 +65,9 @@ std::vector<CurvatureSum> curvature_sums(const WorkingMesh& m) {
 
 /// The curvature of the feature line at v; 0 at its corners.
 double curvature_of_line(const WorkingMesh& m, Index v, double feature_angle) {
-    std::array<Index, 2> ends{none, none};
-    std::size_t count = 0;
-    m.around(v, [&](Index h) {
-        if (m.flags[h] & feature && count < 2) ends[count++] = m.to(h);
-        if (m.twins[WorkingMesh::previous(h)] == none && count < 2) ends[count++] = m.opposite(h);
-        return true;
-    });
-    if (count < 2) return 0;
-    const Vec3 in = m.points[v] - m.points[ends[0]], on = m.points[ends[1]] - m.points[v];
+    const auto ends = m.line_ends(v);
+    if (!ends) return 0;
+    const Vec3 in = m.points[v] - m.points[(*ends)[0]], on = m.points[(*ends)[1]] - m.points[v];
     const double turn = angle_between(in, on), size = length(in) + length(on);
     return turn > feature_angle || !(size > 0) ? 0 : 2 * turn / size;
 }

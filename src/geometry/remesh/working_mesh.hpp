@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace facetmill::remeshing {
 
@@ -80,6 +81,17 @@ class WorkingMesh {
             if (twins[previous(h)] == none) visit(opposite(h));
             return true;
         });
+    }
+    /// The neighbours of v along its feature line, or none at an end of the line.
+    [[nodiscard]] std::optional<std::array<Index, 2>> line_ends(Index v) const {
+        std::array<Index, 2> ends{none, none};
+        std::size_t count = 0;
+        around(v, [&](Index h) {
+            if (flags[h] & feature && count < 2) ends[count++] = to(h);
+            if (twins[previous(h)] == none && count < 2) ends[count++] = opposite(h);
+            return true;
+        });
+        return count < 2 ? std::nullopt : std::optional(ends);
     }
     [[nodiscard]] bool is_border(Index v) const {
         return !around(v, [&](Index h) { return twins[h] != none && twins[previous(h)] != none; });

@@ -1,5 +1,6 @@
 #include "geometry/thicken/thicken.hpp"
 
+#include "base/math/angle.hpp"
 #include "base/math/portable_math.hpp"
 #include "geometry/edit/split_non_manifold.hpp"
 #include "geometry/edit/surgery.hpp"
@@ -125,7 +126,7 @@ struct System {
 double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
     const Vec3 u = to_world.vector(mesh.point(previous_corner(mesh, f, c)) - mesh.point(c)),
                v = to_world.vector(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
-    return arc_tangent(length(cross(u, v)), dot(u, v));
+    return angle_between(u, v);
 }
 
 struct Directions {
