@@ -16,6 +16,11 @@ struct Refusal {
     std::string id = "E-CONFLICT";
 };
 
+/// An option that has no effect without another: "'drain' needs mode: surface".
+[[nodiscard]] inline Refusal needs(const std::string& option, const std::string& other) {
+    return {option, "'" + option + "' needs " + other, "add " + other + ", or leave out '" + option + "'"};
+}
+
 /// The message with its owner: "split: 'min_angle' goes with no other target".
 [[nodiscard]] inline std::string refusal_text(std::string_view owner, const Refusal& refusal) {
     return std::string(owner) + ": " + refusal.message;

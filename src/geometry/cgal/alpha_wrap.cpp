@@ -19,6 +19,11 @@ using Halfedges = CGAL::Surface_mesh<Point>;
 using Points = wraps::Point_set_oracle<Kernel>;
 using Segments = wraps::Segment_soup_oracle<Kernel, Points>;
 using Triangles = wraps::Triangle_soup_oracle<Kernel, Segments>;
+#if CGAL_VERSION_MAJOR < 6
+using Wrapper = wraps::Alpha_wrap_3<Triangles>;
+#else
+using Wrapper = wraps::Alpha_wrapper_3<Triangles>;
+#endif
 
 struct TooLarge {};
 
@@ -27,8 +32,8 @@ class Watch : public wraps::Wrapping_default_visitor {
   public:
     explicit Watch(const WrapSize& size) : size_(size) {}
 
-    template <class Wrapper, class Vertex>
-    void after_Steiner_point_insertion(const Wrapper&, Vertex) {
+    template <class Wraps, class Vertex>
+    void after_Steiner_point_insertion(const Wraps&, Vertex) {
         if (++vertices_ > size_.max_vertices) throw TooLarge{};
         if (vertices_ % 1024 == 0)
             ProgressScope::report(static_cast<double>(vertices_) /
@@ -86,7 +91,7 @@ WrappedSurface alpha_wrap(const WrapInput& input, const WrapSize& size) {
         for (const auto& [a, b, c] : input.triangles) all.emplace_back(at(a), at(b), at(c));
         triangles.add_triangle_soup(all);
     }
-    wraps::Alpha_wrap_3<Triangles> wrapper(triangles);
+    Wrapper wrapper(triangles);
     Halfedges mesh;
     Watch watch(size);
     try {

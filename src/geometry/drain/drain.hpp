@@ -35,11 +35,12 @@ struct DrainResult {
 /// A cavity is a closed component whose faces face inward. A hole is a vertical cylinder. Its axis begins at
 /// the lowest place at which a ball of its diameter fits into the cavity, and the cylinder passes through the
 /// wall below. So the hole opens fully into the cavity, and nothing remains in the cavity below it. Places
-/// are searched over the faces of the cavity, in steps of half the radius. Of places that are equally low, up
-/// to an eighth of the diameter, a single hole takes the middle. Several holes take places that are far
-/// apart, at least two diameters. A hole ends where all of its section has left the wall, and before it meets
-/// the solid again; places where this is impossible are skipped. The result is closed and manifold (see
-/// combine). The mesh must be a closed solid. The same for any number of threads.
+/// are searched over the faces of the cavity, in steps of half the radius. Heights that
+/// differ by less than an eighth of the diameter count as equal, and a single hole takes the middle of the
+/// lowest places. Several holes are at least two diameters apart. A hole ends where all of its section has
+/// left the wall, and before it meets the solid again; places where this is impossible are skipped. The
+/// result is closed and manifold (see combine). The mesh must be a closed solid. The same for any number of
+/// threads.
 [[nodiscard]] DrainResult drain(Mesh mesh, const DrainSettings& settings);
 
 } // namespace facetmill

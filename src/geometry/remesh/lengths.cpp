@@ -13,7 +13,7 @@ constexpr double longest_share = 4.0 / 3, shortest_share = 4.0 / 5;
 /// A feature line may move by this share of the intended length.
 constexpr double line_slack = 0.05;
 
-/// An edge that a pass will visit. It is skipped if its ends have changed by then.
+/// An edge that a pass will visit. It is skipped if its ends changed in the meantime.
 struct Candidate {
     double share; ///< its length in parts of the intended length
     Index h, from, to;

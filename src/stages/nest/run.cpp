@@ -175,13 +175,14 @@ struct NestStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override {
         const Value* sizes = given.is_map() ? given.find("plate") : &given;
         if (o.plate.empty() || o.plate.size() > 3)
-            problems.add(
-                mark_at(given, "plate"), "E-NEST",
-                fmt::format("nest: plate needs one, two or three lengths, found {}", o.plate.size()));
+            problems.add(mark_at(given, "plate"), "E-NEST",
+                         fmt::format("nest: plate needs one, two or three lengths, found {}", o.plate.size()),
+                         "write, for example, plate: [250mm, 210mm]");
         for (const Length& side : o.plate)
             if (!(side.amount > 0) && !(sizes && sizes->deferred))
                 problems.add(mark_at(given, "plate"), "E-NEST",
-                             fmt::format("nest: the lengths of plate must be above 0, found {}", side.text));
+                             fmt::format("nest: the lengths of plate must be above 0, found {}", side.text),
+                             "write, for example, plate: [250mm, 210mm]");
     }
 };
 

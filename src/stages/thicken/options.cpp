@@ -92,7 +92,7 @@ void declare_thicken(Declare<ThickenOptions>& d) {
 
 void verify_thicken(const ThickenOptions& o, const Value& given, Problems& problems) {
     if (o.drain && o.mode != Mode::surface)
-        add_refusal(Refusal{"drain", "'drain' needs mode: surface"}, "thicken", given, problems);
+        add_refusal(needs("drain", "mode: surface"), "thicken", given, problems);
 }
 
 } // namespace facetmill::thicken_stage
