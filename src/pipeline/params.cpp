@@ -220,7 +220,8 @@ class Params {
                              single != Type::choice && single != Type::list;
         for (const auto& [key, limit] : {std::pair{"min", &options.min}, std::pair{"max", &options.max}})
             if (*limit && !limited)
-                refuse(key, fmt::format("'{}' has no order that {} could limit", entry.key, key),
+                refuse(key,
+                       fmt::format("values of '{}' have no order, so {} cannot limit them", entry.key, key),
                        options.is_list() ? "leave it out, or write of: number"
                                          : "leave it out, or write type: number");
         if (!good || !options.min || !options.max) return good;

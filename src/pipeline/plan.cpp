@@ -86,7 +86,7 @@ void check_keys(const Value& document, const std::vector<std::string>& keys, Pro
                          "it belongs to the pipeline that includes it");
         else
             problems.add(entry.key_mark, "E-KEY", fmt::format("a pipeline has no key '{}'", entry.key),
-                         suggestion(entry.key, keys) + "; keys that begin with x- are free");
+                         suggestion(entry.key, keys) + "; names of your own keys begin with x-");
     }
 }
 

@@ -41,8 +41,8 @@ SelfIntersections affordable_crossings(Work& work) {
     if (found.too_many)
         tell_of_crossings(
             work,
-            fmt::format("not searched for, because the bounding boxes of more than {} pairs of its {} "
-                        "faces meet; clean smaller parts, or thinner walls and tubes",
+            fmt::format("not searched for, because the bounding boxes of more than {} pairs of its {} faces "
+                        "meet; cut the part into smaller parts first, or make walls and tubes thinner",
                         found.box_pairs - 1, work.mesh.face_count()),
             corner_mean(work.mesh, 0));
     return found;
@@ -58,15 +58,15 @@ bool untangle_once(Work& work, const CleanSettings& s) {
     if (found.count > found.pairs.size()) {
         tell_of_crossings(
             work,
-            fmt::format("{} pairs of faces intersect, and at most {} are processed", found.count, max_pairs),
+            fmt::format("{} pairs of faces intersect, but at most {} are processed", found.count, max_pairs),
             corner_mean(work.mesh, found.pairs[0].first));
         return false;
     }
     if (!work.may_process(found.count)) {
         tell_of_crossings(
             work,
-            fmt::format("{} pairs of its {} faces intersect, of which at most {} could be tried in "
-                        "reasonable time; clean smaller parts, or thinner walls and tubes",
+            fmt::format("{} pairs of its {} faces intersect, but at most {} can be tried in reasonable time; "
+                        "cut the part into smaller parts first, or make walls and tubes thinner",
                         found.count, work.mesh.face_count(), work.budget.vain_pairs),
             corner_mean(work.mesh, found.pairs[0].first));
         return false;

@@ -157,7 +157,7 @@ class Separation {
         if (!more) return {};
         if (how.step > 1) note(marked, levels_, coarse_);
         if (!lower(marked, levels_, how.step)) // if nothing moves, all pairs existed before
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move intersect");
         return marked;
     }
 
@@ -183,7 +183,7 @@ class Separation {
             if (trouble[s].too_many) tests_[s].mark(tests_[s].touched(), how.rings, marked);
         note(marked, levels_, coarse_);
         if (!lower(marked, levels_, last_level))
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move are too many to look at");
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: too many faces do not move");
         return marked;
     }
 

@@ -149,7 +149,7 @@ HiddenFaces hidden_faces(const Surface& surface, const FaceTree& tree, std::size
     const double rays = outer_ray_count(surface.bounds(), settings.gap);
     if (!(rays <= most))
         throw Error(ErrorKind::limit, "E-LIMIT",
-                    fmt::format("hidden faces need {:.3g} rays for this gap, at most {:.0e} are possible",
+                    fmt::format("hidden faces need {:.3g} rays for this gap, but at most {:.0e} are possible",
                                 rays, most),
                     "give a larger gap");
     return HiddenSearch(surface, tree, faces, settings).run();

@@ -53,10 +53,10 @@ void cross_ring(Ring ring, const HatchSettings& s, bool frame, std::vector<Cross
 void check_limit(const Box& box, const HatchSettings& s) {
     const double lines = box.diagonal() / s.spacing;
     if (!(lines <= static_cast<double>(s.limit)))
-        throw Error(
-            ErrorKind::limit, "E-HATCH",
-            fmt::format("hatching would take about {:.0f} lines, and at most {} are drawn", lines, s.limit),
-            "choose a larger spacing");
+        throw Error(ErrorKind::limit, "E-HATCH",
+                    fmt::format("hatching would take about {:.0f} lines, but at most {} are possible", lines,
+                                s.limit),
+                    "choose a larger spacing");
     constexpr double whole = 0x1p52; // lines are counted from the origin
     if (!(std::max(length(box.min), length(box.max)) < whole * s.spacing))
         throw Error(ErrorKind::limit, "E-HATCH",

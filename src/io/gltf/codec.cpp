@@ -178,7 +178,7 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
                      names.size() == 1 ? "a part is" : counted(names.size(), "part") + " are",
                      some_of(names)),
          {},
-         "they are measured, changed and written as the others are; the common key `only` leaves them out",
+         "they are measured, changed and written like the others; exclude them with the common key `only`",
          false});
 }
 
@@ -443,7 +443,7 @@ void warn_of_losses(Patch& patch, const std::string& name, const Json& other, bo
         lost.emplace_back("metadata");
     if (!lost.empty())
         patch.warn("W-MERGED",
-                   fmt::format("{} of '{}' are written, without its {}",
+                   fmt::format("{} of '{}' are written, but not its {}",
                                joined ? "the contents" : "only the meshes and materials", name,
                                fmt::join(lost, ", ")),
                    fmt::format("load '{}' alone, and write it to a separate file to keep them", name));

@@ -121,8 +121,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     if (rows.split)
         written.changes.push_back(
             {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
-             fmt::format("{} vertices became {}: OFF has one colour at a vertex, so seams split",
-                         world->vertex_count(), world->wedge_count())});
+             fmt::format(
+                 "{} vertices became {}: OFF has one colour at a vertex, so vertices on seams were split",
+                 world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "OFF", {"metadata"});
     warn_of_dropped(written, scene, "OFF", false);
     warn_of_parts(written, scene, "OFF");

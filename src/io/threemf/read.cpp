@@ -65,7 +65,7 @@ class SceneMaker {
         std::vector<Use> items = main.items;
         if (items.empty()) {
             items = unused(main, path);
-            faults_.emplace_back("it builds nothing: the objects that no other object uses are read");
+            faults_.emplace_back("it builds no objects, so all objects that no other object uses are read");
         }
         for (const Use& item : items) warn_of_item(item);
         place_items(items);
@@ -293,7 +293,7 @@ class SceneMaker {
         const auto found = objects.find(item.object.id);
         if (found != objects.end() && found->second.type == "other")
             faults_.push_back(
-                fmt::format("it builds object {}, whose type is 'other', which it must not", item.object.id));
+                fmt::format("it builds object {} of type 'other', which 3MF forbids", item.object.id));
     }
 
     /// Supports, modifiers and the like, which are no part of the product.
@@ -429,7 +429,7 @@ const RegisterCodec codec({
     .can = {.normals = false,
             .transforms = true,
             .full_precision = true,
-            .attributes = "colours at corners or materials, none else; textures are only read"},
+            .attributes = "colours at corners, or materials; textures are read but not written"},
     .sniff = sniff,
     .read = with_linear_colours(read),
     .write = with_srgb_colours(write),

@@ -350,12 +350,12 @@ class ModelWriter {
         warn_of_names(written_, scene_, "3MF");
         if (polygons_)
             written_.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,
-                                        "3MF holds triangles: cut into them"});
+                                        "cut into triangles, because 3MF stores only triangles"});
         if (hides_materials_) {
             warn("W-MATERIAL", "triangles with colours have no material in 3MF");
-            written_.changes.push_back(
-                {"materials", Domain::face, AttributeChange::Kind::dropped,
-                 "a triangle of 3MF has colours or a material: those with colours lose it"});
+            written_.changes.push_back({"materials", Domain::face, AttributeChange::Kind::dropped,
+                                        "a triangle of 3MF has colours or a material, so triangles with "
+                                        "colours lose their material"});
         }
         if (written_.dropped_faces > 0)
             warn("W-FACES", fmt::format("{} with the same vertex twice not written, since 3MF forbids them",

@@ -205,11 +205,11 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
                     "clean", given, problems);
     const bool may_move = o.single && o.non_manifold && o.weld != Nearness::off;
     if (o.apart && !may_move && given.find("apart"))
-        add_refusal(Refusal{"apart",
-                            "'apart' has no effect: it needs coordinates of 32 bits, after equal vertices "
-                            "were merged and non-manifold ones separated",
-                            "use precision: single, with weld and non_manifold on"},
-                    "clean", given, problems);
+        add_refusal(
+            Refusal{"apart",
+                    "'apart' has no effect, because it needs precision: single, weld and non_manifold",
+                    "use precision: single, with weld and non_manifold on"},
+            "clean", given, problems);
     if (o.gap && !o.hidden)
         add_refusal(Refusal{"gap", "'gap' needs hidden: true", "add hidden: true"}, "clean", given, problems);
     const auto& c = o.components;

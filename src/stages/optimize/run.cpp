@@ -510,7 +510,8 @@ Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeRepor
         optimize({scene, o, context, report});
     } catch (const Json::exception&) {
         throw Error(ErrorKind::malformed, "E-GLTF",
-                    "a member of the document has another type than glTF gives it", {}, context.where());
+                    "a member of the document does not have the type that glTF requires", {},
+                    context.where());
     }
     return scene;
 }

@@ -70,8 +70,8 @@ std::vector<std::optional<Mesh>> make_fit(Scene& scene, const Purpose& purpose, 
         budget = r.budget;
         const std::size_t repairs = r.counts.total() - r.counts.rounded_vertices;
         if (repairs == 0) continue;
-        context.say(fmt::format("'{}' fits {} with the rounding of the file after {}", part.name,
-                                purpose.name, counted(repairs, "repair")));
+        context.say(fmt::format("'{}' fits {} with the file's rounding after {}", part.name, purpose.name,
+                                counted(repairs, "repair")));
         context.attribute_changes(part, r.changes);
         replaced[k] = std::exchange(part.mesh, std::move(r.mesh));
         part.changed = true;

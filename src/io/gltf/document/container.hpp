@@ -16,7 +16,7 @@ inline constexpr const char* hint_for_version_1 =
     "convert it to glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf";
 
 /// The message for a member that no check has covered.
-inline constexpr const char* wrong_type = "a member has another type than glTF gives it";
+inline constexpr const char* wrong_type = "a member does not have the type that glTF requires";
 
 /// Calls body, and adds the file to its errors.
 template <class Body>

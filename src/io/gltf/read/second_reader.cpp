@@ -333,7 +333,7 @@ SecondReading read_again(const Input& file, const Scene& scene) {
     } catch (const Json::exception&) {
         SecondReading reading;
         reading.reader = "tinygltf";
-        reading.not_asked = "the document has members of other types than glTF defines";
+        reading.not_asked = "members of the document do not have the types that glTF requires";
         return reading;
     }
 }

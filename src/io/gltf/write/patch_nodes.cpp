@@ -147,7 +147,8 @@ void move_nodes(Patch& patch, const Claims& claims) {
         if (!up || !down) {
             patch.warn("W-TRANSFORM",
                        fmt::format("nodes[{}] {} and keeps its transform, although its part has moved", n,
-                                   up ? "is animated from no volume" : "is under a node without volume"));
+                                   up ? "has an animation of a flattening transform"
+                                      : "is under a node that flattens it"));
             continue;
         }
         if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;
