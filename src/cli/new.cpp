@@ -13,7 +13,7 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* new_examples =
-    R"(Without FILE, it lists the built-in pipelines with their params, or those of one with --from.
+    R"(Without FILE, it lists the built-in pipelines with their params. With --from, it lists only that pipeline.
 
 Examples
   facetmill new

@@ -21,8 +21,8 @@ const RegisterMessages stage_messages{
      "In "
      "a pipeline, use `load: {unit: mm, up: z}`, or `transform` before the stage."},
     {"W-FANS",
-     "Faces were replaced by triangles that may overlap. The faces have no area, are non-planar and "
-     "intersect themselves, or wind several times around some points with their neighbours.",
+     "Faces were replaced by triangles that may overlap. The faces have no area, or they are non-planar and "
+     "intersect themselves. Or a face with neighbours winds around some points several times.",
      "Check the faces given in the message."},
     {"W-LINES",
      "A file has no lines for tubes, tubes intersect themselves at sharp corners, or a format cannot store "

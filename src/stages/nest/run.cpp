@@ -58,7 +58,7 @@ void declare_part(DeclareFields<NestedPart>& d) {
 
 void declare_report(DeclareFields<NestReport>& d) {
     d.field("plates", &NestReport::plates, "The number of plates.");
-    d.list("parts", &NestReport::parts, "Each part with its place.", declare_part);
+    d.list("parts", &NestReport::parts, "Each part with its plate and position.", declare_part);
 }
 
 /// The axes of the ground and of up, a right-handed frame.

@@ -30,7 +30,7 @@ void declare_wall(DeclareFields<ThickenResult::Wall>& d) {
 void declare_hole(DeclareFields<DrainHole>& d) {
     d.field("from", &DrainHole::from, "The start of its axis, in the cavity.").unit("scene units");
     d.field("to", &DrainHole::to, "The end of its axis, outside.").unit("scene units");
-    d.field("vent", &DrainHole::vent, "Whether it is a vent at the highest place.");
+    d.field("vent", &DrainHole::vent, "Whether the hole is a vent at the highest point.");
 }
 
 /// Reads a member of the result of drain, if there is one.
