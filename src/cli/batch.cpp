@@ -150,7 +150,7 @@ class BatchBar {
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const batch::Summary& so_far,
                 const Console& console, bool by_cause) {
     WarningLimiter few(console);
-    const bool tells = !by_cause || console.json; // otherwise the summary tells the causes
+    const bool tells = !by_cause || console.json; // otherwise the summary lists the causes
     if (!out.kept && tells)
         for (const auto& warning : out.warnings) few.tell(warning);
     if (tells)

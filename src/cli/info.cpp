@@ -54,7 +54,7 @@ struct InfoOptions {
 struct FileInfo {
     Scene scene;
     Properties properties;
-    Box drawn;                                 ///< the box of what viewers draw
+    Box drawn;                                 ///< the bounding box of the drawn contents
     std::optional<double> drawn_area;          ///< if a skin or morph targets move vertices
     std::vector<report::Component> components; ///< the largest components
     FaceKinds kinds;

@@ -114,7 +114,7 @@ std::vector<std::string> as_one_liner(const RenderCommandOptions& options,
     const bool two = rest != words.end() && !rest->starts_with("-");
     std::vector<std::string> line{"pipe", "load", words.front()};
     GivenConvention(words.front(), true, units, options.ups).add_to(line);
-    // A second file without a unit or up axis is taken to have those of the scene.
+    // A second file without a unit or up axis is assumed to have the unit and axis of the scene.
     if (const GivenConvention second(two ? *rest : "-", false, units, options.ups); two && !second.empty()) {
         line.insert(line.end(), {"!", "transform"});
         second.add_to(line);

@@ -44,7 +44,7 @@ constexpr Plain obstacles[] = {
     {"rounding", "the surfaces are closer together than the file format can store"},
 };
 
-/// A property that fails: what the customer sees, what to do, and the repair that would have helped.
+/// A property that fails: the sentence for the customer, the request, and the repair that would have helped.
 struct FailedProperty {
     std::string_view property;
     std::string_view what; ///< {} is the place: " near (1, 2, 3)"
@@ -213,7 +213,7 @@ std::string words_of(std::string name) {
     return name;
 }
 
-/// What must hold, without the value in scene units in parentheses.
+/// The required value, without the value in scene units in parentheses.
 std::string required(const Check& check) { return check.expected.substr(0, check.expected.find(" (")); }
 
 /// The text about a size that is out of its limits.
@@ -281,7 +281,7 @@ std::string missing_file(const std::string& message) {
 constexpr std::string_view our_fault = "We could not process the model because of a problem on our side. "
                                        "Your file may be fine. We will look into it.";
 
-/// Texts about errors that say more than their kind, by their ids without the first letter.
+/// Texts for errors whose id is more specific than their kind, by the id without its first letter.
 constexpr Plain reasons[] = {
     {"EMPTY",
      "The file has no surface: it contains no faces. Please export the model as a mesh, and send the "

@@ -151,8 +151,8 @@ bool rounding_moves(const Mesh& mesh) {
                        [](const Vec3& p) { return is_finite(p) && as_float32(p) != p; });
 }
 
-/// Whether faces intersect now that did not before. If some intersected before, those stay and the new ones
-/// are reported, because they cannot be told apart.
+/// Whether faces intersect now that did not before. If some intersected before, all stay, because old and new
+/// intersections cannot be distinguished; the new ones are reported.
 bool is_tangled_by_rounding(Work& work, const Mesh& before) {
     const SelfIntersections now = affordable_crossings(work);
     if (now.too_many || now.count == 0) return false;
@@ -179,7 +179,7 @@ std::size_t CleanCounts::total() const {
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     Work work;
-    std::optional<Mesh> exact; // before rounding, if nothing else would notice what it does
+    std::optional<Mesh> exact; // the mesh before rounding, to find intersections that rounding causes
     if (settings.single && settings.self_intersections == Untangle::off && rounding_moves(mesh)) exact = mesh;
     work.mesh = std::move(mesh);
     work.budget = settings.budget;

@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// Points that a cap adds to the cut, numbered after those of PlaneCut. Contours cross, or pass through each
-/// other's points, at them.
+/// Points that a cap adds to the cut, numbered after the points of PlaneCut. Contours cross, or pass through
+/// each other's points, at them.
 struct ExtraPoints {
     std::vector<Vec3> points;        ///< [extra vertices]
     Provenance vertices, wedges;     ///< mixes only; wedges stays empty without seams

@@ -319,9 +319,9 @@ void remember_middles(CutMemory& memory, const DividedEdges& divided, const Mesh
         if (!on[entry].empty()) memory.add_to(entry, std::move(on[entry]));
 }
 
-/// A cap may touch faces that end in the plane. The solids on both sides of such an edge or vertex become
-/// separate there, as in combine. This waits until all planes have cut, because clip_body copies the caps of
-/// the front to the back.
+/// A cap may touch faces that end in the plane. At such an edge or vertex, the solids on both sides are
+/// separated, as in combine. This waits until all planes have cut, because clip_body copies the caps of the
+/// front to the back.
 void separate_solids(ClipResult& result) {
     for (Mesh* mesh : {&result.front, &result.back}) {
         if (connectivity_of(*mesh).is_manifold()) continue;

@@ -163,8 +163,7 @@ class Separation {
 
     /// If too many pairs would have to be examined, halves the allowed stretch repeatedly until some
     /// positions are lowered. If the round limit is reached, or all faces keep their shape, stops all moves
-    /// of these faces. Returns [positions] 1 if lowered. again: set to the faces that may still meet,
-    /// lowered or not.
+    /// of these faces. Returns [positions] 1 if lowered. again: receives the faces that must be tested again.
     std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how,
                                         FacesOfSheets& again) {
         for (std::size_t s = 0; s < tests_.size(); ++s)

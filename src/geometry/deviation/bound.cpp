@@ -13,7 +13,7 @@ namespace facetmill {
 
 namespace {
 
-/// A corner, its distance from the other surface, and the closest triangle there.
+/// A corner, its distance from the other surface, and the closest triangle of that surface.
 struct Corner {
     Vec3 at;
     Closest closest;

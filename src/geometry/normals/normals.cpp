@@ -28,7 +28,7 @@ struct FaceNormals {
     double least_cosine = 0;   ///< of the angle between the normals of faces that share a normal
 };
 
-/// Finds the corners of a vertex that share a normal, and those that also share a wedge.
+/// Finds the corners of a vertex that share a normal, and the corners that also share a wedge.
 class SmoothFan {
   public:
     SmoothFan(const Mesh& mesh, const std::vector<Index>& face_of, const FaceNormals& normals)

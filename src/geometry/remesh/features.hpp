@@ -1,5 +1,5 @@
 #pragma once
-// Makes the working mesh, and finds what remeshing must keep.
+// Makes the working mesh, and finds the edges and vertices that remeshing must keep.
 
 #include "geometry/remesh/working_mesh.hpp"
 

@@ -23,7 +23,7 @@ struct RemeshResult {
     AttributeChanges changes;
     double expected_faces = 0;                  ///< from area and lengths, before remeshing
     std::size_t feature_edges = 0;              ///< edges of the result that are features, borders or seams
-    std::size_t locked_edges = 0;               ///< non-manifold edges, which stay as they are
+    std::size_t locked_edges = 0;               ///< non-manifold edges, which are not changed
     std::size_t dropped_faces = 0;              ///< faces of the input with a repeated corner
     double shortest = 0, mean = 0, longest = 0; ///< edges of the result
 };
@@ -31,7 +31,7 @@ struct RemeshResult {
 /// Isotropic remeshing after M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling"
 /// (2004): splits long edges, collapses short ones, flips edges towards six at a vertex, and moves vertices
 /// towards the middle of their neighbours, on the surface. Lengths by curvature follow M. Dunyach et al.,
-/// "Adaptive remeshing for real-time mesh deformation" (2013); the curvature is that of D. Cohen-Steiner and
+/// "Adaptive remeshing for real-time mesh deformation" (2013); the curvature follows D. Cohen-Steiner and
 /// J.-M. Morvan, "Restricted Delaunay triangulations and normal cycle" (2003). Neighbouring lengths differ by
 /// at most half of their distance.
 ///

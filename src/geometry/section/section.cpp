@@ -136,7 +136,7 @@ bool is_collapsed(polygon::Ring ring) {
     return range.min == 0 && range.max == 0;
 }
 
-/// Straightens all contours; those that shrank to a point or a line are dropped and counted.
+/// Straightens all contours. Drops and counts contours that shrink to a point or a line.
 void tidy(Section& s, double rounding) {
     Index to = 0;
     std::size_t kept = 0;

@@ -125,8 +125,8 @@ bool is_reached(const Mesh& mesh, const SplitSettings& settings) {
     return settings.max_edge > 0 && facet_shape(mesh, settings.to_world).longest_edge <= settings.max_edge;
 }
 
-/// The expected duration of each pass, as far as it is known in advance: methods that halve edges replace a
-/// face by four.
+/// The expected duration of each pass, if it is known in advance: methods that halve edges replace a face by
+/// four.
 std::vector<double> lengths_of_passes(const Mesh& mesh, const SplitSettings& s) {
     double passes = std::min(s.passes, 16);
     if (s.max_edge > 0) {

@@ -15,10 +15,10 @@ namespace {
 /// How far a wedge at a seam is looked up towards the centres of its faces, as a share of the way.
 constexpr double towards_faces = 1e-4;
 
-/// Where to look for the source of an element.
+/// The query that finds the source of an element.
 struct Lookup {
     Vec3 at;             ///< the element
-    Vec3 asked;          ///< slightly beside it, on its own side of a seam
+    Vec3 asked;          ///< next to the element, on its own side of a seam
     Vec3 middle;         ///< the mean of the centres of its faces
     Index region = none; ///< required region; none: any
 };
@@ -108,7 +108,7 @@ class Lookups {
         std::vector<Lookup> all(to_.wedge_count());
         std::vector<Index> wedges_of(to_.vertex_count());
         std::vector<std::uint8_t> used(all.size());
-        std::vector<std::uint8_t> several(all.size()); // in several regions: values are continuous there
+        std::vector<std::uint8_t> several(all.size()); // in several regions, with continuous values
         for (Index w = 0; w < all.size(); ++w) ++wedges_of[to_.vertex_of_wedge(w)];
         for (Index f = 0; f < to_.face_count(); ++f) {
             const Vec3 middle = corner_mean(to_, f);

@@ -59,7 +59,7 @@ Vec2 direction(double degrees) {
     return v;
 }
 
-/// The plane of a block, or of an entity, in that of the drawing.
+/// The plane of a block or an entity, in the plane of the drawing.
 struct PlaneMap {
     Vec2 x{1, 0}, y{0, 1}, origin;
     Vec2 point(const Vec2& p) const { return x * p.x + y * p.y + origin; }
@@ -79,7 +79,7 @@ struct Insertion {
     int depth = 0;
 };
 
-/// Text, dimensions and the like, which no one takes for an outline.
+/// Text, dimensions and similar entities, which are never outlines.
 bool is_annotation(std::string_view type) {
     constexpr std::array<std::string_view, 20> types{"TEXT",
                                                      "MTEXT",

@@ -414,11 +414,11 @@ void keep_asset(Json& asset, const Json& other) {
     const Json extras = from->value("extras", Json::object());
     if (!asset.contains("extras") && !extras.empty()) asset["extras"] = extras;
     if (asset.contains("extras") && asset["extras"].is_object() && extras.is_object())
-        for (const auto& [name, value] : extras.items()) // those of the first document stay
+        for (const auto& [name, value] : extras.items()) // extras of the first document take precedence
             if (!asset["extras"].contains(name)) asset["extras"][name] = value;
 }
 
-/// Whether the copyright or extras of another document's asset differ from those that are written.
+/// Whether the copyright or extras of another document's asset differ from the written ones.
 bool has_other_metadata(const Json& asset, const Json& other) {
     const Json from = other.value("asset", Json::object());
     if (!from.is_object()) return false;
@@ -554,7 +554,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Bytes buffer = builder.finish(written.warnings);
     drop_nulls(builder.json());
     warn_of_data_extras(patch, data_extras);
-    // Without meshes, names are what animations and programs find nodes by.
+    // Without meshes, animations and programs find nodes by their names.
     if (settings.drop_names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
     if (shortens)

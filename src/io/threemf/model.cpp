@@ -229,7 +229,7 @@ class ModelReader {
         }
     }
 
-    /// Keeps metadata, except those that describe the file. Names with a prefix are settings of programs.
+    /// Keeps metadata, except entries that describe the file. Names with a prefix are settings of programs.
     void metadata(const Element& e) {
         const std::string_view name = need(e, "name");
         if (std::find(std::begin(metadata_names), std::end(metadata_names), name) != std::end(metadata_names))

@@ -296,7 +296,7 @@ class SceneMaker {
                 fmt::format("it builds object {} of type 'other', which 3MF forbids", item.object.id));
     }
 
-    /// Supports, modifiers and the like, which are no part of the product.
+    /// Supports, modifiers and similar objects, which are not part of the product.
     void warn_of_types() {
         if (left_out_.empty()) return;
         std::vector<std::string> words;
@@ -378,7 +378,7 @@ class SceneMaker {
     std::vector<ObjectId> open_;
     std::size_t uses_ = 0, vertices_ = 0;
     std::string extras_;                          ///< of the primitives of the object being read
-    std::map<std::string, std::size_t> left_out_; ///< what is not printed, by type or purpose
+    std::map<std::string, std::size_t> left_out_; ///< objects that are not printed, by type or purpose
     bool reads_all_types_ = false;
     std::vector<std::string> faults_; ///< broken rules of the specification
 };

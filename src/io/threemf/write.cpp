@@ -89,7 +89,8 @@ class Looks {
             if (material(f) != none && has_colours(f)) return true;
         return false;
     }
-    /// The properties that triangles have which name none: those of the first face, if every face has any.
+    /// The properties of triangles that state none: the properties of the first face, if every face has
+    /// properties.
     Properties usual() const {
         for (Index f = 0; f < mesh_.face_count(); ++f)
             if (of(f).group == none) return {};

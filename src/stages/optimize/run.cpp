@@ -69,7 +69,7 @@ std::size_t draw_calls_of(const Scene& scene) {
     return calls;
 }
 
-/// The scene, and what is asked of its documents.
+/// The scene, and the requested changes of its documents.
 struct Optimization {
     Scene& scene;
     const OptimizeOptions& o;

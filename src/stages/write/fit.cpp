@@ -26,7 +26,7 @@ CleanSettings settings_for(const Purpose& purpose, bool on_grid) {
     return s;
 }
 
-/// Moves vertices to the nearest points of the grid, as the file will. Ties may be rounded otherwise there.
+/// Moves vertices to the nearest points of the grid, as the file will. The file may round ties differently.
 void round_to_grid(Mesh& mesh, const io::WriteSettings& settings, std::size_t part) {
     const Box box = mesh.bounds();
     if (box.empty()) return;

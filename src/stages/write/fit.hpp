@@ -6,9 +6,10 @@
 
 namespace facetmill::write_stage {
 
-/// Rounds the parts as the file will, and repairs what that spoils. On 32-bit floats it welds, splits and
-/// moves vertices, and resolves intersections. On a grid it only welds vertices and removes faces. Parts that
-/// rounding does not spoil are left unchanged. Returns, for each part, the mesh that was replaced, if any.
+/// Rounds the parts as the file will, and repairs the faults that this causes. On 32-bit floats it welds,
+/// splits and moves vertices, and resolves intersections. On a grid it only welds vertices and removes faces.
+/// Parts that rounding does not spoil are left unchanged. Returns, for each part, the mesh that was replaced,
+/// if any.
 [[nodiscard]] std::vector<std::optional<Mesh>> make_fit(Scene& scene, const Purpose& purpose,
                                                         const io::Codec& codec,
                                                         const io::WriteSettings& write, Context& context);

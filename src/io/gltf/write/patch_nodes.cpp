@@ -72,7 +72,7 @@ Transform node_world(const Patch& patch, const Claims& claims, const Part& part)
     return back ? part.transform * *back : part.transform;
 }
 
-/// The wanted world transforms of the document's nodes: those of the parts, otherwise unchanged.
+/// The wanted world transforms of the document's nodes: the transform of the part, otherwise unchanged.
 std::vector<Transform> wanted_worlds(const Patch& patch, const Claims& claims) {
     std::vector<Transform> worlds;
     for (const auto& frame : claims.frames) worlds.push_back(frame.world);
