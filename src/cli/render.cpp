@@ -31,8 +31,8 @@ Examples
 
 struct RenderCommandOptions {
     std::string output;
-    std::string unit;             ///< of files that state none, for both or as "mm,m"; or of the attribute
-    std::vector<std::string> ups; ///< of files that state none: for both, or one for each
+    std::string unit;             ///< of files without a unit (for both, or "mm,m"), or of the attribute
+    std::vector<std::string> ups; ///< of files without an up axis: for both, or one for each
     PipelineOptions run;
 };
 
@@ -80,7 +80,7 @@ std::vector<std::string> units_of_files(const std::string& unit) {
     return std::all_of(units.begin(), units.end(), is_unit) ? units : std::vector<std::string>{};
 }
 
-/// The unit and the up axis that --unit and --up give to the first or the second file, where it states none.
+/// The unit and the up axis from --unit and --up for the first or the second file, if the file states none.
 /// Values as words of pipe.
 struct GivenConvention {
     std::string unit, up;

@@ -89,7 +89,7 @@ class HiddenSearch {
         result_.outer_rays += n * n;
     }
 
-    /// Looks from a point of each hidden triangle.
+    /// Casts rays from a point of each hidden triangle.
     void look_outward(std::size_t sample, const Vec3& d) {
         const double start = 1e-6 * box_.diagonal();
         for (std::size_t t = 0; t < surface_.size();) {

@@ -191,8 +191,8 @@ class Walls {
         mesh.corners = surface.corners;
         return mesh;
     }
-    /// Also finds the normals. Needles have none: rounding decides where they face, and their neighbours have
-    /// their points.
+    /// Also finds the normals. Needles get none, because rounding would decide where they face; neighbouring
+    /// faces contain their points.
     std::vector<Box> boxes() {
         std::vector<Box> all(surface_.size());
         parallel_for(all.size(), [&](std::size_t t) {

@@ -24,7 +24,7 @@ double angle_at(const Mesh& mesh, Index f, Index c) {
 /// The faces of a mesh, and how their normals are combined.
 struct FaceNormals {
     std::vector<Vec3> units;   ///< [faces] normals; zero without area
-    std::vector<double> areas; ///< [faces] twice the areas, if they are the weights; empty: angles are
+    std::vector<double> areas; ///< [faces] twice the areas; empty: angles are the weights
     double least_cosine = 0;   ///< of the angle between the normals of faces that share a normal
 };
 

@@ -195,7 +195,7 @@ class PrintDirections {
 
     const Surface& surface_;
     Vec3 up_;
-    double steepest_; ///< the share of its area that an overhanging face at least turns down
+    double steepest_; ///< overhanging faces look down by more than this share of their area
     ConvexSurface hull_;
     Box box_;
     double on_plate_ = 0, total_ = 0;

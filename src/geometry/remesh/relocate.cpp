@@ -44,7 +44,7 @@ std::optional<Spot> moved_along(const WorkingMesh& m, const Anchor& anchor, Inde
     return spot;
 }
 
-/// Lets the vertices of faces that would turn stay, until no face turns.
+/// Keeps the vertices of faces that would turn at their old positions, until no face turns.
 void hold_turning_faces(const WorkingMesh& m, std::vector<Spot>& spots) {
     std::vector<std::uint8_t> turns(m.face_slots());
     for (std::size_t held = 1; held > 0;) {

@@ -35,12 +35,13 @@ struct RemeshResult {
 /// J.-M. Morvan, "Restricted Delaunay triangulations and normal cycle" (2003). Neighbouring lengths differ by
 /// at most half of their distance.
 ///
-/// Every vertex of the result is a point of the input surface, up to rounding. Kept are boundaries, sharp
-/// edges, seams of attributes, and borders of materials and of other face attributes with identifiers. Their
-/// vertices move only along them, and a vertex where they end, meet or turn stays. Connected sharp edges of
-/// less than two lengths in total, and less than a 20th of the diagonal, are noise, and not kept. Edges that
-/// are not manifold stay as they are. No step makes an edge or a vertex non-manifold, turns the normal of a
-/// face by more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and manifold.
+/// Every vertex of the result is a point of the input surface, up to rounding. Boundaries, sharp edges, seams
+/// of attributes, and borders of materials and of other face attributes with identifiers are kept. Their
+/// vertices move only along these lines, and vertices where lines end, meet or turn do not move. Connected
+/// sharp edges of less than two lengths in total, and less than a 20th of the diagonal, are noise, and not
+/// kept. Non-manifold edges are not changed. No step makes an edge or a vertex non-manifold, turns the normal
+/// of a face by more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and
+/// manifold.
 ///
 /// Faces are triangulated first. Faces with a repeated corner are dropped. Attributes are interpolated at the
 /// nearest points of the input (geometry/transfer). Seams that only normals make are merged below the feature

@@ -34,7 +34,7 @@ class SourceFinder {
         }
     }
 
-    /// [lookups] the source faces. distances: gets the distances of the points asked.
+    /// [lookups] the source faces. distances: receives the distances of the query points.
     std::vector<Index> faces_of(const std::vector<Lookup>& lookups, std::vector<double>* distances) const {
         std::vector<Vec3> points(lookups.size());
         parallel_for(points.size(), [&](std::size_t i) { points[i] = lookups[i].asked; });

@@ -1,5 +1,5 @@
 #pragma once
-// Files that fit tries: it runs the stages simplify, textures and write aside, on copies of the scene.
+// Files that fit tries: it runs the stages simplify, textures and write separately, on copies of the scene.
 
 #include "diff/likeness.hpp"
 #include "stages/fit/options.hpp"

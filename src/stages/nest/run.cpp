@@ -136,7 +136,7 @@ class Nesting {
                     "shrink them with transform: {fit: ..., shrink_only: true}");
     }
 
-    /// From the part's place in the world to its place on the plate.
+    /// From the part's position in the world to its position on the plate.
     Transform movement(const Box& box, const NestPlace& place) const {
         // On the ground, in coordinates of the plate: x, y.
         const double left = box.min[axes_.x];

@@ -12,7 +12,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// The steps that keep a mesh fit. on_grid: of a file with a grid, to which new points cannot be moved.
+/// The steps that keep a mesh fit. on_grid: for a file with a grid, on which new points cannot be placed.
 CleanSettings settings_for(const Purpose& purpose, bool on_grid) {
     CleanSettings s;
     s.single = !on_grid;

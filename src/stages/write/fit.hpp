@@ -1,5 +1,5 @@
 #pragma once
-// Files fit the purpose that their scene was found fit for.
+// Makes files fit the purpose that their scene was checked for.
 
 #include "stage/purpose.hpp"
 #include "stages/write/options.hpp"
