@@ -71,7 +71,7 @@ demo: $(if $(INSTALLED),,$(if $(BUILT),build,build/demo/facetmill))
 	@echo
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
-	$(if $(findstring build/demo,$(DEMO)),@echo "build/demo/facetmill is slow, because it was built without optimisation: make build builds a fast one.")
+	$(if $(findstring build/demo,$(DEMO)),@echo "build/demo/facetmill is slow because it was built without optimisation. make build builds a fast one.")
 
 test: tests
 	@tests/conformance/setup.sh $(BUILD)/conformance || echo "The tests go on without the glTF validator and axe-core." >&2
