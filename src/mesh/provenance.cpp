@@ -237,11 +237,11 @@ AttributeChange change_of(const Attribute& a, const Ancestry& ancestry) {
     switch (a.role) {
     case Role::normal:
     case Role::tangent:
-        change.why = "mixed at new elements and renormalised";
+        change.why = "mixed at new elements, then normalised";
         break;
     case Role::joints:
     case Role::weights:
-        change.why = "combined at new elements, the strongest kept and renormalised";
+        change.why = "combined at new elements: the largest are kept, then normalised";
         break;
     case Role::generic:
     case Role::uv:

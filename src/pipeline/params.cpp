@@ -82,10 +82,10 @@ Declaration param_declaration() {
     auto types = single_types();
     types.push_back({"list", Type::list, ""});
     Declare<ParamOptions> d;
-    d.choice("type", &ParamOptions::type, types, "What the parameter holds").required().primary();
+    d.choice("type", &ParamOptions::type, types, "The type of the value").required().primary();
     d.choice("of", &ParamOptions::of, single_types(),
              "The type of each value of a list. By default, it follows from the text of the value");
-    d.option("help", &ParamOptions::help, "What the parameter is for");
+    d.option("help", &ParamOptions::help, "The purpose of the parameter");
     d.option("required", &ParamOptions::required, "Whether it must be given");
     d.option("min", &ParamOptions::min, "The least value");
     d.option("max", &ParamOptions::max, "The greatest value");

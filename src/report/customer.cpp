@@ -30,7 +30,7 @@ std::string_view plain_for(const Plain (&table)[n], std::string_view text) {
 constexpr Plain obstacles[] = {
     {"oriented inconsistently", "the faces around it disagree about which side is outside"},
     {"fewer than three edges", "it is a slit without width"},
-    {"more than two faces", "several sheets of the surface meet there"},
+    {"more than two faces", "several sheets of the surface meet at it"},
     {"more than", "it is larger than the holes that we close"},
     {"single face", "it surrounds a single loose triangle"},
     {"not planar", "its border does not lie in a plane"},
@@ -68,7 +68,7 @@ constexpr std::string_view too_close_text =
 
 constexpr FailedProperty failed_properties[] = {
     {"oriented",
-     "Neighbouring faces look in opposite directions{}, so inside and outside cannot be told apart.",
+     "Neighbouring faces point in opposite directions{}, so inside and outside cannot be told apart.",
      ask_for_normals, "orient"},
     {"outward_oriented", "Part of the surface is inside out{}.", ask_for_normals, "orient"},
     {"edge_manifold", "More than two faces meet at an edge{}, so inside and outside cannot be told apart.",

@@ -37,8 +37,8 @@ const RegisterMessages stage_messages{
      "`transform` and `merge` work on points."},
     {"W-REST-POSE",
      "A limit of the deviation, such as `max_error`, holds for the rest pose of a skinned or morphed part. "
-     "Where joints bend the surface or morph targets move it, the deviation is larger. `simplify` measures "
-     "it in sampled poses.",
+     "The deviation is larger if joints bend the surface or morph targets move it. `simplify` measures it in "
+     "sampled poses.",
      "Use `simplify` with a ratio for parts that move, as in `simplify: 50%`, and look at the result in "
      "several poses."},
     {"W-SNAPPED",

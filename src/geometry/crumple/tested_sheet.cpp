@@ -185,9 +185,9 @@ void TestSheet::remember_exempt() {
     if (found.count > found.pairs.size())
         throw Error(
             ErrorKind::limit, "E-LIMIT",
-            fmt::format(
-                "crumple: {} pairs of faces already intersect, but only {} can be told apart from new ones",
-                found.count, max_pairs_),
+            fmt::format("crumple: {} pairs of faces already intersect, but only {} can be distinguished from "
+                        "new ones",
+                        found.count, max_pairs_),
             "clean removes duplicate faces; self_intersections: allow does not search for intersections");
     exempt_ = found.pairs;
     pairs_before_ = found.box_pairs;

@@ -188,8 +188,7 @@ AttributeChanges without_normals(Mesh& mesh, bool had) {
     if (had) changes.push_back({"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "asked for"});
     std::erase_if(mesh.attributes, [&](const Attribute& a) {
         if (a.domain != Domain::wedge || !needs_normals(a.name)) return false;
-        changes.push_back(
-            {a.name, a.domain, AttributeChange::Kind::dropped, "without normals it means nothing"});
+        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "meaningless without normals"});
         return true;
     });
     list_normals(mesh, false);

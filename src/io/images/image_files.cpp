@@ -117,8 +117,9 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
     std::error_code ignored;
     if (!fs::is_regular_file(*path, ignored)) {
         log.absent.push_back(*path);
-        return refuse(fmt::format("the file \"{}\" is missing", path->string()),
-                      "put the image there, or export the model with its textures in the file (GLB)");
+        return refuse(
+            fmt::format("the file \"{}\" is missing", path->string()),
+            "put the image into that folder, or export the model with its textures in the file (GLB)");
     }
     const auto size = fs::file_size(*path, ignored);
     if (!ignored)

@@ -155,7 +155,7 @@ void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor&
         resolves ? "" : "thicken: {self_intersections: resolve} rebuilds the solid without them; or ";
     if (r.unbalanced > 0)
         context.warn("W-THICKEN-OPEN",
-                     fmt::format("thicken: part '{}' is open at {} because its surface is not oriented there",
+                     fmt::format("thicken: part '{}' is open at {}, where its surface is not oriented",
                                  part.name, counted(r.unbalanced, "edge")),
                      "use orient first; a Moebius strip cannot be oriented");
     if (r.wall && r.wall->thinnest < 0.5 * thickness)

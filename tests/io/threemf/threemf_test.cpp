@@ -452,7 +452,7 @@ TEST_CASE("broken rules of 3MF that leave a mesh are named", "[io]") {
         return loaded.log.warnings[0].message;
     };
     CHECK(fault(archive(model(R"(<object id="1" pid="9" pindex="0">)" + one_triangle + "</object>", item))) ==
-          "object 1 refers to the properties 9, which do not exist: it has no colour there");
+          "object 1 refers to the properties 9, which do not exist, so these faces have no colour");
     CHECK(fault(archive(model(R"(<m:colorgroup id="1"><m:color color="#00FF00"/></m:colorgroup>)" + plain,
                               item))) == "line 2: two resources have the id 1, which must be unique");
     CHECK(fault(archive(model(plain, ""))) ==
