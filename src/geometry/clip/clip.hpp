@@ -48,7 +48,7 @@ struct ClipResult {
     AttributeChanges changes;
     std::size_t cut_faces = 0;               ///< faces that a plane passed through
     std::size_t on_plane = 0;                ///< vertices that count as on a plane
-    std::size_t snapped = 0, remembered = 0; ///< among them, by snap and by memory
+    std::size_t snapped = 0, remembered = 0; ///< vertices on the plane because of snap, and because of memory
     double snapped_by = 0;                   ///< the largest distance of a snapped vertex from its plane
     std::size_t cap_faces = 0;
     bool changed = false;          ///< false: no plane met the mesh and all of it was kept

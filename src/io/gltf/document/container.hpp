@@ -33,8 +33,8 @@ template <class Body>
 /// True when the bytes begin with the GLB magic number.
 bool is_glb(Span bytes);
 
-/// Whether a JSON text is a tileset of 3D Tiles, which names an "asset", too: of the members of the outermost
-/// object that only one of both has, the first is the tileset's.
+/// Whether a JSON text is a tileset of 3D Tiles. Tilesets and glTF both have an "asset", so the first member
+/// that only one of both formats has decides.
 bool is_tileset(std::string_view json);
 
 /// The chunks of a container, pointing into it.
