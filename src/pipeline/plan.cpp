@@ -164,7 +164,7 @@ std::vector<std::string> read_allowed(const Value* allow, const PlanSettings& se
 }
 
 /// Adds E-LIMITS for each step that judges written files before any `write`. written: a write came before the
-/// steps. Returns true if one came before their end.
+/// steps. Returns true if a write came before their end.
 bool check_judged_files(const Steps& steps, bool written, Problems& problems) {
     for (const Step& step : steps) {
         if (step.when && step.when->known && !*step.when->known) continue;

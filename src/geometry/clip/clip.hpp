@@ -30,7 +30,7 @@ struct ClipSettings {
     /// Numbers cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group. Both continue
     /// after the largest existing number.
     bool cap_numbers = false;
-    /// Take positions as on the plane if they may be off it by their rounding alone (CoordinateErrors in
+    /// Positions count as on the plane if rounding alone may have moved them off it (CoordinateErrors in
     /// geometry/cut/cut.hpp).
     bool snap = false;
     CutMemory memory = {}; ///< points known to be on planes
@@ -57,14 +57,14 @@ struct ClipResult {
 };
 
 /// Every vertex is classified once per plane, by the exact sign of side(plane, p), so neighbours always
-/// agree. Points built on a plane count as on it when it recurs (see CutMemory), so that repeated and
+/// agree. Points built on a plane count as on it when the plane recurs (see CutMemory), so that repeated and
 /// adjoining cuts meet without slivers. A face with vertices strictly on both sides is cut directly, whether
 /// triangle, quad or n-gon (convex or not). Each cut edge gets one new vertex, shared by all faces at it, and
-/// one new wedge per pair of wedges, computed with the edge's ends in index order. For an axis-aligned plane
-/// its coordinate is exactly the plane's. A face that only touches the plane stays or goes whole. A face in
-/// the plane of a closed mesh (and with Keep::both) stays on the side that its normal points away from; for
-/// an open mesh settings.coplanar decides. Caps: for a closed mesh, the edges in the plane at which the
-/// directions of the kept faces do not cancel are closed contours. They are projected along the normal's
+/// one new wedge per pair of wedges, computed with the edge's ends in index order. For an axis-aligned plane,
+/// the vertex's coordinate is exactly the plane's. A face that only touches the plane stays or goes whole. A
+/// face in the plane of a closed mesh (and with Keep::both) stays on the side that its normal points away
+/// from; for an open mesh settings.coplanar decides. Caps: for a closed mesh, the edges in the plane at which
+/// the directions of the kept faces do not cancel are closed contours. They are projected along the normal's
 /// dominant axis and filled by a constrained Delaunay triangulation that emits each triangle as often as the
 /// contours turn around it. So islands and holes nest, and contours that cross still close. Vertices and
 /// edges of faces that only touch the plane become corners and edges of the cap, so faces end in none of its

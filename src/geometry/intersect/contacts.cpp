@@ -61,7 +61,7 @@ bool corner_inside(const Corners& s, const Sides& sides, const Corners& t) {
     return false;
 }
 
-/// For triangles in the same plane: whether an edge of s separates t from s. t may touch its line.
+/// For triangles in the same plane: whether an edge of s separates t from s. t may touch the edge's line.
 bool edge_parts(const Corners& s, const Corners& t) {
     const std::size_t view = view_of(s[0], s[1], s[2]);
     const int way = turn(s[0], s[1], s[2], view);

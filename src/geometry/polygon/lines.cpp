@@ -32,8 +32,8 @@ std::int64_t line_above(double height, double spacing) {
     return k;
 }
 
-/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to only one
-/// side, so every line crosses every ring as often up as down.
+/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to only one side,
+/// so every line crosses every ring upwards as often as downwards.
 void cross_ring(Ring ring, const HatchSettings& s, bool frame, std::vector<Crossing>& out) {
     const Vec2 across{-s.direction.y, s.direction.x};
     for (std::size_t i = 0; i < ring.size(); ++i) {

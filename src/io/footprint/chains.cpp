@@ -329,7 +329,7 @@ bool is_outermost(const std::vector<Vec2>& ring, const std::vector<std::vector<V
     });
 }
 
-/// A chain with two loose ends that has an outermost ring inside once a line of at most half its length
+/// A chain with two loose ends that encloses an outermost ring if a line of at most half the chain's length
 /// closes it.
 std::optional<OpenOutline> EndGraph::chain_around(const std::vector<std::vector<Vec2>>& rings) {
     find_ends();
@@ -370,7 +370,8 @@ double distance_to(const polygon::RingEdge& e, const Vec2& p) {
     return length(to - d * t);
 }
 
-/// Whether the corners and the middles of all edges of a ring are this near to the edges of another.
+/// Whether the corners and the middles of all edges of a ring are within this distance of the edges of
+/// another.
 bool lies_on(const std::vector<Vec2>& ring, const std::vector<Vec2>& other, double off) {
     const polygon::Ring span = other;
     const polygon::RingTree tree(polygon::Rings(&span, 1));

@@ -306,7 +306,8 @@ class DxfPlacer {
         const double ratio = number(e, 40, 1) * (looks_ == Looks::from_below ? -1 : 1);
         const Vec2 minor = Vec2{-major.y, major.x} * ratio;
         const double from = number(e, 41), to = number(e, 42, 2 * pi);
-        // Angles have six digits or more in files, so this is all of it. The ends are joined.
+        // Angles have six digits or more in files, so an arc that ends so near to its start is a whole
+        // ellipse. Its ends are joined.
         constexpr double rounding = 1e-5;
         double sweep = to - from;
         if (!(std::fabs(sweep) < 1000)) fail(e.line, "an ellipse has angles out of range");

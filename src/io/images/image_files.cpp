@@ -56,7 +56,7 @@ fs::path resolved(const fs::path& path, std::error_code& failed) {
     return failed ? fs::path() : fs::weakly_canonical(absolute, failed);
 }
 
-/// The path without "..", if this names the same file. Links can make it another file.
+/// The path without "..", if that path names the same file. With links, it may name a different file.
 fs::path plain(const fs::path& path, const fs::path& real) {
     std::error_code failed;
     const fs::path normal = path.lexically_normal();

@@ -143,7 +143,7 @@ class TextReader {
     }
 
     /// Many programs write colours of vertices under the plain keyword OFF. They are recognised if each line
-    /// has one vertex, with as many numbers more, and a face follows.
+    /// has a vertex and the same number of further values, and a face follows.
     void take_unnamed_colours(std::int64_t vertices) {
         if (kind_.normals || kind_.colours || kind_.uvs) return;
         Text ahead = text_;
