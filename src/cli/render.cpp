@@ -23,7 +23,7 @@ Examples
   facetmill render part.stl -o part.png --view front --edges all --background white
   facetmill render scan.ply -o around.png --views turntable --width 400 --height 400
   facetmill render before.glb after.glb -o both.png --width 800 --height 800
-  facetmill render before.stl after.glb -o both.png --unit mm --up z     (for files that state none; mm,m for each file)
+  facetmill render before.stl after.glb -o both.png --unit mm --up z     (if a file has none; mm,m: per file)
   facetmill render part.stl -o walls.png --attribute wall_thickness
   facetmill render low.glb high.glb -o deviation.png --attribute deviation
 
