@@ -27,11 +27,11 @@ std::optional<Error> told_as_limit(const std::exception& e, const std::string& w
                              std::move(where));
     if (is_want_of_threads(e))
         return out_of_memory(
-            fmt::format("no thread could be begun{}: there is not enough memory for it, or a "
-                        "limit of threads is reached",
-                        whom),
-            "-j 1 needs no other threads; ulimit -v and -u, and the limits of a container, "
-            "say how much there is",
+            fmt::format(
+                "a thread cannot start{}: there is not enough memory, or the limit of threads is reached",
+                whom),
+            "use -j 1, which needs no other threads, or raise the limits (ulimit -v and -u, or the "
+            "container)",
             std::move(where));
     return {};
 }

@@ -10,13 +10,18 @@ namespace facetmill {
 
 struct Refusal {
     std::string option;  ///< name of the option: "min_angle"
-    std::string message; ///< for example "'min_angle' goes with no other target"; messages put the owner of
-                         ///< the option before it
+    std::string message; ///< for example "'min_angle' cannot be combined with another target"; messages put
+                         ///< the owner of the option before it
     std::string hint = {};
     std::string id = "E-CONFLICT";
 };
 
-/// The message with its owner: "split: 'min_angle' goes with no other target".
+/// An option that has no effect without another: "'drain' needs mode: surface".
+[[nodiscard]] inline Refusal needs(const std::string& option, const std::string& other) {
+    return {option, "'" + option + "' needs " + other, "add " + other + ", or leave out '" + option + "'"};
+}
+
+/// The message with its owner: "split: 'min_angle' cannot be combined with another target".
 [[nodiscard]] inline std::string refusal_text(std::string_view owner, const Refusal& refusal) {
     return std::string(owner) + ": " + refusal.message;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a pipeline on many assets in a single process. It finds the assets, skips those that an earlier batch
+// Runs a pipeline on many assets in a single process. It finds the assets, skips assets that an earlier batch
 // completed, runs the others on shared threads, and writes a summary.
 
 #include "base/text/markup.hpp"
@@ -145,9 +145,9 @@ struct Listener {
 };
 
 /// Runs the assets. The number of jobs comes from the settings, otherwise from the jobserver in MAKEFLAGS,
-/// otherwise from default_threads(). The outputs of an asset appear together, and have the same bytes for
-/// any number of jobs. Completed assets are recorded in the output folder, so that the next batch skips
-/// unchanged assets. Throws an output error (E-BUSY) when another batch of this pipeline is running there.
+/// otherwise from default_threads(). The outputs of an asset appear together, and have the same bytes for any
+/// number of jobs. Completed assets are recorded in the output folder, so that the next batch skips unchanged
+/// assets. Throws an output error (E-BUSY) when another batch of this pipeline is running in the same folder.
 [[nodiscard]] Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
 
 /// The summary of assets that do not run because of these errors.

@@ -18,7 +18,7 @@ std::string between(std::string_view message, std::string_view before, char end)
     return std::string(message.substr(0, message.find(end)));
 }
 
-/// The part of a message that tells apart the causes of one id. The asset's name may come before it.
+/// The part of a message by which the causes of an id differ. The asset's name may come before it.
 std::string subject_of(const Diagnostic& d, const Asset& asset) {
     std::string_view message = d.message;
     if (const auto at = message.find(asset.name + ": "); at != message.npos)

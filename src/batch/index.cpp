@@ -1,4 +1,4 @@
-// The summary of a batch as Markdown, and what its reports share.
+// The summary of a batch as Markdown, and helpers that its reports share.
 
 #include "base/text/markup.hpp"
 #include "base/text/readable_numbers.hpp"

@@ -191,7 +191,7 @@ void Journal::open_locked() {
         if (!file_)
             throw Error(ErrorKind::output, "E-WRITE",
                         fmt::format("'{}' cannot be written: {}", path_.string(), std::strerror(errno)),
-                        "a batch records its progress there; choose another folder with --output-dir");
+                        "a batch records its progress in this folder; choose another one with --output-dir");
         if (!try_lock(file_))
             throw Error(ErrorKind::output, "E-BUSY",
                         fmt::format("another batch of this pipeline is running in '{}'", folder_.string()),

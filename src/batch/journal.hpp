@@ -36,7 +36,7 @@ struct Done {
     std::vector<std::pair<std::string, std::string>> former; ///< outputs of earlier runs with their digests
     Figures figures;
     std::string measured; ///< how the figures of the model were measured (Settings); empty: they were not
-    std::vector<OutcomeFile> files;                            ///< what the page shows of them
+    std::vector<OutcomeFile> files;                            ///< the files as shown on the page
     std::optional<double> deviation;                           ///< see Outcome
     std::vector<std::string> written;                          ///< outputs without reports, for the summary
     std::vector<std::pair<std::string, std::string>> warnings; ///< ids and messages

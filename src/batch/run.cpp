@@ -47,7 +47,7 @@ OutcomeFile file_of(const Asset& asset, const report::FileRecord& record) {
     return file;
 }
 
-/// Reads what the written files cost to draw, for pages.
+/// Adds the draw calls and pixels of the written files, for pages.
 void add_draw_costs(std::vector<OutcomeFile>& files, const fs::path& folder) {
     for (OutcomeFile& file : files) {
         try {
@@ -165,7 +165,7 @@ std::string how_measured(const Settings& settings) {
     return settings.model_row ? fmt::format("overhang {}", settings.model_row->overhang_angle) : "";
 }
 
-/// What a successful run read and wrote. before: stamps of its inputs from before reading.
+/// The files that a successful run read and wrote. before: stamps of its inputs from before reading.
 Done done_of(const Work& work, const std::vector<Stamp>& before, const report::RunRecord& record,
              const Outcome& out, const fs::path& folder, const std::string& measured) {
     Done done = named_done(work);

@@ -96,11 +96,11 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
            [](DeclareFields<OutcomeFile>& f) {
                f.field("path", &OutcomeFile::path, "");
                f.field("bytes", &OutcomeFile::bytes, "");
-               f.field("faces", &OutcomeFile::faces, "").null_when("it is no mesh");
+               f.field("faces", &OutcomeFile::faces, "").null_when("the file is not a mesh");
                f.field("draw_calls", &OutcomeFile::draw_calls, "")
-                   .null_when("it is no glTF, or no page was made");
+                   .null_when("the file is not a glTF file, or no page was made");
                f.field("pixels", &OutcomeFile::pixels, "The pixels of its images.")
-                   .null_when("it has no images, or no page was made");
+                   .null_when("the file has no images, or no page was made");
            });
     d.field("deviation", of_outcome(&Outcome::deviation),
             "The largest deviation that stages report, in percent of the diagonal.")

@@ -105,7 +105,7 @@ std::vector<Row> csv_rows(const std::shared_ptr<const SourceText>& source) {
     while (reader.next(record)) {
         if (record.size() != heading.size())
             refuse_table(record.front().where,
-                         fmt::format("{} cells in a row, expected {}", record.size(), heading.size()));
+                         fmt::format("the row has {} cells, expected {}", record.size(), heading.size()));
         Row& row = rows.emplace_back();
         for (std::size_t c = 0; c < record.size(); ++c) {
             if (record[c].text.empty()) continue;

@@ -42,7 +42,7 @@ concept Number = std::is_arithmetic_v<T>;
 
 /// Thrown for truncated bytes, or bytes that ByteWriter did not write.
 struct Corrupt : std::exception {
-    const char* what() const noexcept override { return "the bytes are not as they were written"; }
+    const char* what() const noexcept override { return "the bytes differ from the written bytes"; }
 };
 
 /// Throws Corrupt for invalid CBOR, or nesting of more than 200 levels.

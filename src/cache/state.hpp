@@ -23,7 +23,7 @@ struct Memory {
     std::vector<std::string> absent;        ///< missing files that it looked for
     std::string scene;                      ///< key of the resulting scene
     std::string told_name;                  ///< its name, if warnings contain it; else empty
-    Box bounds;                             ///< of what is drawn of the resulting scene
+    Box bounds;                             ///< of the drawn contents of the resulting scene
 };
 [[nodiscard]] io::Bytes encoded(const Memory& memory);
 /// Encodes the memory with this record instead of its own, to avoid a copy.

@@ -72,8 +72,8 @@ class Store {
     std::uint64_t limit(std::uint64_t bytes) const;
     /// The reason why put would fail; empty if none is known without trying.
     std::string hindrance() const;
-    /// Removes leftovers of processes that ended early, and entries until the limit is met. Returns what was
-    /// removed.
+    /// Removes leftovers of processes that ended early, and entries until the limit is met. Returns the
+    /// removed contents.
     Contents collect();
     /// Removes all entries. Returns the removed contents.
     Contents clear();

@@ -14,7 +14,7 @@ namespace facetmill::cli {
 
 namespace {
 
-/// CLI11's formatter, whose usage line knows only the declared arguments.
+/// CLI11's formatter, whose usage line shows only the declared arguments.
 class Help : public CLI::Formatter {
   public:
     explicit Help(std::string the_rest) : the_rest_(std::move(the_rest)) {}

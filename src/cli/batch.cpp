@@ -150,7 +150,7 @@ class BatchBar {
 void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const batch::Summary& so_far,
                 const Console& console, bool by_cause) {
     WarningLimiter few(console);
-    const bool tells = !by_cause || console.json; // otherwise the summary tells the causes
+    const bool tells = !by_cause || console.json; // otherwise the summary lists the causes
     if (!out.kept && tells)
         for (const auto& warning : out.warnings) few.tell(warning);
     if (tells)
@@ -337,8 +337,9 @@ void check_results(const BatchOptions& options, const CommandLine& line, Problem
                      fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
                      "use a name that ends in .tar or .zip");
     if (!(options.overhang_angle <= 90))
-        problems.add(line.find("--overhang-angle"), "E-RANGE",
-                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
+        problems.add(
+            line.find("--overhang-angle"), "E-RANGE",
+            fmt::format("--overhang-angle must be at most 90 degrees, found {}", options.overhang_angle));
 }
 
 /// Removes the unpacked files of archives at the end. After a signal they stay until the next batch.

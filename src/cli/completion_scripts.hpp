@@ -6,7 +6,7 @@ namespace facetmill::cli {
 
 /// For bash and zsh: prints the possible words, each with a tab and a help text. Files are offered if no
 /// words are printed, or with <files>. _facetmill_table prints the rows of a table, _facetmill_is_stage
-/// knows the stages.
+/// recognises stages.
 inline constexpr const char* candidates_sh = R"SH(
 # $1: the word that is typed; then the words before it, without facetmill itself.
 _facetmill_candidates() {

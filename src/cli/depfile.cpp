@@ -56,7 +56,7 @@ std::vector<std::string> targets_of(const report::RunRecord& record, const std::
             if (!mesh || !file.read_back.is_null()) paths.add(file.path);
     for (const auto& report : record.reports) paths.add(report);
     auto all = paths.all();
-    all.push_back(depfile); // a gate writes no files, so its rule is for the depfile itself
+    all.push_back(depfile); // a pipeline of checks writes no files, so the depfile is the target
     return all;
 }
 

@@ -74,7 +74,8 @@ std::string topics_with(const std::string& word) {
 
 std::string names_near(const std::string& word) {
     if (docs::ready_pipeline(word))
-        return fmt::format("facetmill new --from {} lists what this pipeline does, and its params", word);
+        return fmt::format("facetmill new --from {} shows the purpose of this pipeline, and its params",
+                           word);
     std::vector<std::string> names;
     for (const Topic& topic : topics()) names.push_back(topic.name);
     for (const auto& m : message_ids()) names.emplace_back(m.id);

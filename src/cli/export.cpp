@@ -18,16 +18,16 @@ that parallel jobs fit into the cores of this machine and into --memory. Make su
 recommends a suitable -j.
 
 Each job also depends on the executable. For Make and Ninja, a depfile in .facetmill-depfiles adds the files that the
-run read (for Ninja not with --shard, nor for names with ' " & or the like).
+run read. Ninja gets no depfile with --shard, or for names that contain characters such as ' " &.
 
 The assets of a shard run one after the other. If one fails, the others still run, and the job fails with the exit
 code of the last failure. Snakemake then removes all outputs of the job. Make and Ninja keep them and run the
 whole shard again. Paths are relative to the working directory, so run the workflow there. The outputs are byte
-for byte the same as those of `facetmill batch` with the same options.
+for byte the same as with `facetmill batch` and the same options.
 
 --keep-cells divides a single run that simplifies a mesh larger than memory. The first job makes the cells,
 --cell-jobs jobs simplify some cells each, and the last job is the run itself. Its outputs are byte for byte the
-same as those of `facetmill run` with the same --memory. Killed jobs continue where they stopped.
+same as with `facetmill run` and the same --memory. Killed jobs continue where they stopped.
 
 Examples
   facetmill export --to ninja scan-to-web --input 'scans/**/*.ply' -o web > build.ninja && ninja

@@ -27,9 +27,9 @@ namespace {
 
 constexpr const char* info_examples =
     R"(Property names are the same as in validate, ensure, when and reports. A property that does not apply (the volume
-of an open mesh) is null. With several files, --json prints a list with an entry for each file. The error of an
-entry is null, or says why the file cannot be read. Then the other keys are missing. The exit code is the most
-severe one.
+of an open mesh) is null. With several files, --json prints a list with an entry for each file. The key error
+of an entry is null, or gives the reason why the file cannot be read. The other keys are then missing. The
+exit code is the most severe one.
 
 Examples
   facetmill info scan.ply
@@ -54,7 +54,7 @@ struct InfoOptions {
 struct FileInfo {
     Scene scene;
     Properties properties;
-    Box drawn;                                 ///< the box of what viewers draw
+    Box drawn;                                 ///< the bounding box of the drawn contents
     std::optional<double> drawn_area;          ///< if a skin or morph targets move vertices
     std::vector<report::Component> components; ///< the largest components
     FaceKinds kinds;

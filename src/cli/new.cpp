@@ -13,7 +13,7 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* new_examples =
-    R"(Without FILE, it lists the built-in pipelines with their params, or those of one with --from.
+    R"(Without FILE, it lists the built-in pipelines with their params. With --from, it lists only that pipeline.
 
 Examples
   facetmill new
@@ -70,7 +70,7 @@ std::string param_line(const std::string& name, const Value& param) {
     return fmt::format("  {:<12}  {:<7}  {:<8}  {}\n", name, type, value, help);
 }
 
-/// What a built-in pipeline does, and its params with their types and defaults.
+/// The purpose of a built-in pipeline, and its params with their types and defaults.
 std::string described(const docs::ReadyPipeline& ready) {
     const Value document = document_of(ready);
     const Value* about = document.find("about");

@@ -43,8 +43,9 @@ void add_message_options(Arguments& arguments, Console& console) {
 
 void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
-    arguments.add("-p,--preset", &options.presets,
-                  "A YAML file of params (keep: 10%). Its paths are relative to it. -D overrides it.");
+    arguments.add(
+        "-p,--preset", &options.presets,
+        "A YAML file of params (keep: 10%). Paths in it are relative to the file. -D overrides it.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
     add_asset_root_option(arguments, options.asset_roots);
 }

@@ -23,7 +23,7 @@ Examples
   facetmill render part.stl -o part.png --view front --edges all --background white
   facetmill render scan.ply -o around.png --views turntable --width 400 --height 400
   facetmill render before.glb after.glb -o both.png --width 800 --height 800
-  facetmill render before.stl after.glb -o both.png --unit mm --up z     (of files that state none; mm,m: of each)
+  facetmill render before.stl after.glb -o both.png --unit mm --up z     (if a file has none; mm,m: per file)
   facetmill render part.stl -o walls.png --attribute wall_thickness
   facetmill render low.glb high.glb -o deviation.png --attribute deviation
 
@@ -31,8 +31,8 @@ Examples
 
 struct RenderCommandOptions {
     std::string output;
-    std::string unit;             ///< of files that state none, for both or as "mm,m"; or of the attribute
-    std::vector<std::string> ups; ///< of files that state none: for both, or one for each
+    std::string unit;             ///< of files without a unit (for both, or "mm,m"), or of the attribute
+    std::vector<std::string> ups; ///< of files without an up axis: for both, or one for each
     PipelineOptions run;
 };
 
@@ -80,7 +80,7 @@ std::vector<std::string> units_of_files(const std::string& unit) {
     return std::all_of(units.begin(), units.end(), is_unit) ? units : std::vector<std::string>{};
 }
 
-/// The unit and the up axis that --unit and --up give to the first or the second file, where it states none.
+/// The unit and the up axis from --unit and --up for the first or the second file, if the file states none.
 /// Values as words of pipe.
 struct GivenConvention {
     std::string unit, up;
@@ -114,7 +114,7 @@ std::vector<std::string> as_one_liner(const RenderCommandOptions& options,
     const bool two = rest != words.end() && !rest->starts_with("-");
     std::vector<std::string> line{"pipe", "load", words.front()};
     GivenConvention(words.front(), true, units, options.ups).add_to(line);
-    // A second file without a unit or up axis is taken to have those of the scene.
+    // A second file without a unit or up axis is assumed to have the unit and axis of the scene.
     if (const GivenConvention second(two ? *rest : "-", false, units, options.ups); two && !second.empty()) {
         line.insert(line.end(), {"!", "transform"});
         second.add_to(line);

@@ -8,8 +8,8 @@
 
 namespace facetmill::cli {
 
-/// Prints errors and warnings. Of similar ones (same id and same place in the pipeline) it prints the first
-/// ten and the number of others; with --log json all.
+/// Prints errors and warnings. If warnings are similar (same id, same position in the pipeline), it prints
+/// the first ten and the number of the others. With --log json, it prints all.
 class WarningLimiter {
   public:
     explicit WarningLimiter(const Console& console) : console_(console) {}

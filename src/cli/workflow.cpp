@@ -19,9 +19,8 @@ namespace facetmill::cli {
 namespace {
 
 std::string heading() {
-    return fmt::format("# Written by facetmill {} export. Export again when assets "
-                       "come or go, or when\n"
-                       "# the pipeline reads or writes other files.\n",
+    return fmt::format("# Written by facetmill {} export. Export again after adding or removing assets,\n"
+                       "# or when the pipeline reads or writes other files.\n",
                        docs::release());
 }
 
@@ -134,7 +133,7 @@ void check_names(const std::vector<Job>& jobs, const char* engine, std::string_v
         for (const auto& path : refused.all()) {
             const char c = path[path.find_first_of(odd)];
             problems.add({}, "E-EXPORT",
-                         fmt::format("{} cannot work with the {} in '{}'", engine,
+                         fmt::format("{} does not support the {} in '{}'", engine,
                                      c == '\t' ? std::string("tab") : fmt::format("'{}'", c), path),
                          hint);
         }
@@ -316,7 +315,7 @@ std::string make_workflow(const std::vector<Job>& given, const Resources& resour
     const Lanes lanes = lanes_of(jobs, resources);
     const std::size_t most = lanes.large > 0 ? lanes.large : lanes.small;
     const std::string advice = fmt::format(
-        "# make runs as many jobs at a time as its -j says, whatever memory and threads they need.\n"
+        "# make runs as many jobs at a time as -j allows, regardless of their memory and threads.\n"
         "# -j{} suits {}.\n",
         most, in_words(resources));
     return heading() + advice +

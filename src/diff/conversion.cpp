@@ -53,7 +53,7 @@ WeightedMean mean_of_vertices(const Scene& scene) {
     return mean;
 }
 
-/// Both by the centroids of their surfaces; by their vertices if one has no area.
+/// Uses the centroids of both surfaces, or the means of the vertices if one surface has no area.
 std::pair<Lie, Lie> lies_of(const Scene& a, const Scene& b) {
     WeightedMean first = mean_of_surface(a), second = mean_of_surface(b);
     if (!first.is_of_something() || !second.is_of_something()) {
@@ -135,8 +135,8 @@ std::vector<AxisTurn> all_turns() {
     return out;
 }
 
-/// The distance of b from a times the factor: of the middles if the boxes match, corner by corner, within a
-/// hundredth of the diagonal.
+/// The distance between the middles of b and of a scaled by the factor. None unless the boxes match, corner
+/// by corner, within a hundredth of the diagonal.
 std::optional<double> off(const Lie& a, const Lie& b, double factor) {
     const double most = a.box.diagonal() / 100 * factor;
     if (!(length(a.box.min * factor - b.box.min) <= most && length(a.box.max * factor - b.box.max) <= most))

@@ -13,10 +13,10 @@ struct Origin {
     io::Conversion of_second; ///< the applied conversion, from these and the command line
 };
 
-/// A hint if the boxes differ by a unit factor, another rotation about the axes, or both: "the box of B is
-/// that of A times 0.001 ...". Empty if the boxes are equal, or no such conversion makes them equal (corners
-/// within a hundredth of the diagonal). For conventions that a file does not state, the command line's value
-/// may be wrong, so the hint refers to the original files. O(faces).
+/// A hint if the boxes differ by a unit factor, a rotation about the axes, or both: "the bounding boxes match
+/// if the first file is scaled by 0.001 ...". Empty if the boxes are equal, or no such conversion makes them
+/// equal (corners within a hundredth of the diagonal). For conventions that a file does not state, the
+/// command line's value may be wrong, so the hint refers to the original files. O(faces).
 [[nodiscard]] std::string conversion_hint(const Scene& a, const Scene& b, const Origin& origin);
 
 } // namespace facetmill::report

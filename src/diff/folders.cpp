@@ -129,7 +129,7 @@ std::string name_html(const FolderPair& pair) {
     return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), path_code(pair.paths.text()));
 }
 
-/// "counts, geometry", or the reason why there is none.
+/// "counts, geometry", or the reason why there is no comparison.
 std::string more_of(const FolderPair& pair) {
     if (pair.outcome == FolderOutcome::failed) return pair.verdict;
     return pair.paths.unpaired.empty() ? pair.differs_in : pair.paths.unpaired;

@@ -7,7 +7,7 @@ namespace facetmill::docs {
 
 namespace {
 
-/// The text without the escapes of roff: \- and \(dq are characters, \fB and \& are none.
+/// The text without the escapes of roff: \- and \(dq become characters, \fB and \& are removed.
 std::string unescaped(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -42,7 +42,8 @@ std::vector<std::string> arguments(std::string_view text) {
     return all;
 }
 
-/// .B sets all arguments; for .BR and the like, the letters are the fonts of the arguments in turn.
+/// .B applies to all arguments. For .BR and similar macros, the letters are the fonts of successive
+/// arguments.
 std::string in_fonts(std::string_view fonts, const std::vector<std::string>& texts) {
     std::string out;
     if (fonts.size() == 1) {

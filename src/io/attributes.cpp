@@ -158,7 +158,7 @@ void warn_of_nan(const NanCounts& counts, const char* format, std::vector<Diagno
                          counted(count, "value"), name, count == 1 ? "is" : "are", format,
                          count == 1 ? "it is" : "they are"),
              {},
-             "PLY keeps them; where a stage measure made them, its option missing: -1 makes them that "
+             "write PLY to keep them; if a stage measure made them, give it missing: -1 to store that "
              "number"});
 }
 
@@ -181,13 +181,13 @@ void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
                     return is;
                 },
                 [](auto&) {});
-            warn(infinite, a, "infinite: there is no number there",
-                 "export the file again if it means another number");
+            warn(infinite, a, "infinite: read as nan (no value)",
+                 "export the file again if infinity has another meaning");
         } else
             warn(count_values(
                      a.data, [](auto x) { return !std::isfinite(x); }, [](auto& x) { x = 0; }),
                  a, "not finite: set to 0",
-                 "export the file again if the attribute is needed: 0 may mean something there");
+                 "export the file again if you need the attribute, because 0 may have a meaning");
     }
 }
 

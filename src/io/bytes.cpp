@@ -166,7 +166,7 @@ Input Input::with_asset_roots(const std::vector<std::filesystem::path>& folders)
         if (!is_folder || failed)
             throw Error(ErrorKind::missing, "E-ASSET-ROOT",
                         fmt::format("the asset root '{}' is not a folder", folder.string()),
-                        "name the folder that holds all files that the mesh file refers to");
+                        "give the folder with all files that the mesh file refers to");
     }
     return other;
 }

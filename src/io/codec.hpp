@@ -79,7 +79,7 @@ struct DracoSettings {
 /// KHR_mesh_quantization: attributes as small integers on a grid. Integer attributes stay unchanged.
 struct QuantizeSettings {
     bool on = false;
-    bool given = false; ///< the user decided whether it is on; otherwise meshopt does
+    bool given = false; ///< the user set `on`; otherwise meshopt sets it
     Grid grid = Grid::even;
     std::optional<std::int64_t> position_bits;
     std::int64_t normal_bits = 8, uv_bits = 12, colour_bits = 8;
@@ -221,7 +221,7 @@ struct Capabilities {
         false; ///< parts keep their transforms and names, otherwise all parts are in world space
     bool skins = false;
     bool points = false;                ///< scenes without faces: point clouds
-    bool points_and_faces = false;      ///< parts of points beside parts with faces
+    bool points_and_faces = false;      ///< parts of points next to parts with faces
     bool lines = false;                 ///< parts of lines
     bool documents = false;             ///< scenes without meshes: nodes, cameras, animations
     bool full_precision = false;        ///< WriteSettings::double_positions
@@ -256,7 +256,7 @@ struct FileHeader {
     std::function<std::vector<NamedImage>()> images{};
 };
 
-/// The verdict of a library that reads a written file beside our own reader.
+/// The verdict of a library that reads a written file in addition to our own reader.
 struct SecondReading {
     std::string reader{};                   ///< its name; empty if there is none for the file
     std::string not_asked{};                ///< why it did not read the file; empty if it did

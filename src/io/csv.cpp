@@ -124,7 +124,7 @@ class Table {
                 const std::string_view rest = skip_parting(line);
                 if (rest.empty())
                     malformed(input_.name(), number_, "E-CSV",
-                              fmt::format("{} numbers in a row, expected {}", c, columns_));
+                              fmt::format("the row has {} numbers, expected {}", c, columns_));
                 expected_number(rest.substr(0, rest.find_first_of(",; \t")));
             }
             keep(value);
@@ -137,7 +137,7 @@ class Table {
         for (const std::size_t place : places_) {
             if (place >= cells.size())
                 malformed(input_.name(), number_, "E-CSV",
-                          fmt::format("{} columns in a row, expected {}", cells.size(), place + 1));
+                          fmt::format("the row has {} columns, expected {}", cells.size(), place + 1));
             double value = 0;
             std::string_view cell = cells[place];
             if (!take_number(cell, value) || !skip_parting(cell).empty()) expected_number(cells[place]);

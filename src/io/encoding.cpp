@@ -97,7 +97,7 @@ Input in_utf8(const Input& input) {
     case Encoding::utf16_big:
         return input.with(from_utf16(input, encoding == Encoding::utf16_big));
     case Encoding::utf32:
-        cannot_decode(input, "is UTF-32, which is not read");
+        cannot_decode(input, "is UTF-32, which facetmill cannot read");
     }
     return input;
 }

@@ -5,7 +5,7 @@ namespace facetmill {
 const RegisterMessages io_messages{
     {"E-ASSET-ROOT",
      "The folder given by `--asset-root` or `load: {asset_root: ...}` does not exist, or is a file.",
-     "Name the folder that holds all files that the mesh file refers to.", ErrorKind::missing},
+     "Give the folder with all files that the mesh file refers to.", ErrorKind::missing},
     {"E-CSV",
      "A table is malformed: a cell is not a finite number, or a row has too few or too many columns.",
      "Correct the row given in the message.", ErrorKind::malformed},
@@ -43,9 +43,9 @@ const RegisterMessages io_messages{
     {"E-TAR", "A tar archive is damaged or truncated.", "Make the archive again, or download it again.",
      ErrorKind::malformed},
     {"E-URI", "A glTF file refers to a file outside its directory.",
-     "Copy the file there, or name a folder that holds all files with `--asset-root DIR` or `load: {path: "
-     "..., asset_root: DIR}`. facetmill never follows absolute paths, URLs, or links that lead out of the "
-     "folder.",
+     "Copy the file into this folder, or give a folder that contains all files, with `--asset-root DIR` or "
+     "`load: {path: ..., asset_root: DIR}`. facetmill never follows absolute paths, URLs, or links that lead "
+     "out of the folder.",
      ErrorKind::malformed},
     {"E-ZIP", "A zip archive (3MF) is damaged, truncated or encrypted.",
      "Export it again, or download it again.", ErrorKind::malformed},

@@ -17,15 +17,15 @@ struct Metadata {
     std::string name; ///< "copyright", or a name in extras
     Json value;
 };
-/// Of all documents, in their order. A name comes again for each further value.
+/// The metadata of all documents, in their order. A name with several values occurs several times.
 [[nodiscard]] std::vector<Metadata> metadata_of(const Scene& scene);
 
 /// All metadata, each on a line of its own after `before`: "# Title: Gear". Comments have no name.
 [[nodiscard]] std::string metadata_comments(const Scene& scene, std::string_view before);
 
-/// Warns (W-LOST) once of what the scene has besides meshes and materials, and the format cannot hold:
-/// metadata other than those named in `kept` ("metadata": all, a name: its first value), cameras, lights and
-/// other contents of extensions, and extras other than those named.
+/// Warns (W-LOST) once of contents that the format cannot hold: metadata, cameras, lights, other contents of
+/// extensions, and extras. kept: metadata and extras that the format holds ("metadata": all, a name: its
+/// first value).
 void warn_of_lost(Written& written, const Scene& scene, const char* format,
                   const std::set<std::string>& kept);
 

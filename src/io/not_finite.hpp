@@ -20,7 +20,7 @@ inline constexpr const char* drop_not_finite_hint =
 /// Counts of dropped vertices, faces and lines.
 struct NotFinite {
     std::size_t vertices = 0, faces = 0, lines = 0;
-    std::size_t first = 0; ///< number of the first vertex in the part, as it was read
+    std::size_t first = 0; ///< number of the first vertex, in the part as read
 };
 
 /// Drops the part's vertices with coordinates that are not finite, and the faces and lines that use them.

@@ -34,10 +34,10 @@ const std::vector<OtherFormat>& other_formats() {
          "a CAD file of curved surfaces or solids, not a mesh",
          "export a mesh (.stl, .3mf or .obj) from the CAD program, or with FreeCAD or Gmsh",
          "a mesh is not a CAD solid: write .stl or .3mf, which CAD programs import as a mesh"},
-        {{"scad"}, "an OpenSCAD program", "openscad -o part.3mf part.scad makes a mesh of it", ""},
+        {{"scad"}, "an OpenSCAD program", "convert it to a mesh: openscad -o part.3mf part.scad", ""},
         {{"xyz", "pts", "ptx", "asc", "las", "laz", "e57", "pcd"},
          "a cloud of points",
-         "convert it to .ply, with CloudCompare or PDAL; a surface is made of points there, too",
+         "convert it to .ply, with CloudCompare or PDAL, which can also make a surface from points",
          "write .ply, which CloudCompare and others convert"},
         {{"vtk", "vtp", "vtu", "msh", "inp", "mesh", "bdf", "cgns"},
          "a file of simulation meshes",
@@ -46,8 +46,8 @@ const std::vector<OtherFormat>& other_formats() {
         {{"amf"}, "an AMF file", "save it as .3mf or .stl in the slicer", "write .3mf, which replaced it"},
         {{"gcode"},
          "a program for a printer, not a mesh",
-         "give the mesh that it was made of",
-         "write .3mf or .stl, which the slicer makes it of"},
+         "give the mesh from which it was made",
+         "write .3mf or .stl, from which the slicer makes it"},
         {{"ctm", "nxs", "nxz", "u3d", "mdd"},
          "a file that few programs still read",
          "convert it to .ply, with MeshLab",
@@ -74,7 +74,7 @@ const OtherFormat* other_format(const std::filesystem::path& path) {
 
 std::string hint_for_reading(const std::filesystem::path& path) {
     const OtherFormat* format = other_format(path);
-    return format ? fmt::format("it is {}, by its name: {}", format->what, format->to_read) : "";
+    return format ? fmt::format("its name suggests {}: {}", format->what, format->to_read) : "";
 }
 
 std::string hint_for_writing(const std::filesystem::path& path) {

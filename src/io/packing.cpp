@@ -136,8 +136,8 @@ Bytes unpack_all(Span bytes, Unpacker& unpacker, std::size_t most, const std::st
             if (!unpacker.next_member(in)) break;
         } else if (state == Unpacker::State::broken || (in.empty() && !room.empty())) {
             throw Error(ErrorKind::malformed, unpacker.id,
-                        fmt::format("'{}' is not whole {}: {} near byte {}", name, unpacker.format,
-                                    unpacker.problem(), bytes.size() - in.size()));
+                        fmt::format("'{}' cannot be decompressed as {}: {} near byte {}", name,
+                                    unpacker.format, unpacker.problem(), bytes.size() - in.size()));
         }
     }
     out.resize(size);

@@ -515,7 +515,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
     }
     if (codec.read_again) back.second = codec.read_again(file, back.scene);
     if (!back.second.differences.empty())
-        refuse(fmt::format("{} reads other contents than facetmill: {}", back.second.reader,
+        refuse(fmt::format("{} reads different contents than facetmill: {}", back.second.reader,
                            fmt::join(back.second.differences, "; ")));
     std::size_t polygons = 0, triangles = 0, lines = 0;
     for (const auto& part : scene.parts) {

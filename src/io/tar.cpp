@@ -89,7 +89,7 @@ void read_tar(Span archive, const std::string& name,
         const Span header = archive.subspan(at, block);
         if (std::all_of(header.begin(), header.end(), [](std::byte b) { return b == std::byte{0}; })) return;
         if (tar_number(header, checksum_at, checksum_room) != checksum_of(header))
-            fail(name, at, "the header has another checksum");
+            fail(name, at, "the checksum of the header is wrong");
         const char type = static_cast<char>(header[156]);
         const bool is_header = type == 'x' || type == 'g' || type == 'L' || type == 'K';
         auto size = tar_number(header, 124, 12);

@@ -1,5 +1,5 @@
 #pragma once
-// The size of a mesh as it is drawn. Vertices that no face and no line uses do not count.
+// The size of a mesh when drawn. Vertices that no face and no line uses do not count.
 
 #include "mesh/mesh.hpp"
 

@@ -64,7 +64,7 @@ void check_attribute(const Mesh& mesh, const Attribute& a, std::vector<std::stri
         return &b != &a && b.name == a.name && b.domain == a.domain;
     };
     if (std::any_of(mesh.attributes.begin(), mesh.attributes.end(), same))
-        out.push_back(fmt::format("{} attribute {} is there twice", to_string(a.domain), a.name));
+        out.push_back(fmt::format("{} attribute {} occurs twice", to_string(a.domain), a.name));
 }
 
 void check_primitives(const Mesh& mesh, std::vector<std::string>& out) {
@@ -82,7 +82,7 @@ void check_lines(const Mesh& mesh, std::vector<std::string>& out) {
     if (mesh.lines.size() % 2 != 0)
         out.push_back(fmt::format("{} ends of lines are not a multiple of two", mesh.lines.size()));
     if (!mesh.lines.empty() && !mesh.corners.empty()) out.emplace_back("faces and lines in one mesh");
-    check_range("lines that name no wedge", mesh.lines, mesh.wedge_count(), out);
+    check_range("lines that refer to no wedge", mesh.lines, mesh.wedge_count(), out);
     if (!mesh.line_primitive.empty() && mesh.line_primitive.size() != mesh.line_count())
         out.push_back(
             fmt::format("{} primitives of lines, not {}", mesh.line_primitive.size(), mesh.line_count()));
@@ -95,8 +95,8 @@ void check_lines(const Mesh& mesh, std::vector<std::string>& out) {
 std::vector<std::string> broken_invariants(const Mesh& mesh) {
     std::vector<std::string> out;
     check_offsets(mesh, out);
-    check_range("corners that name no wedge", mesh.corners, mesh.wedge_count(), out);
-    check_range("wedges that name no vertex", mesh.wedge_vertex, mesh.vertex_count(), out);
+    check_range("corners that refer to no wedge", mesh.corners, mesh.wedge_count(), out);
+    check_range("wedges that refer to no vertex", mesh.wedge_vertex, mesh.vertex_count(), out);
     Finding infinite{"positions that are not finite"};
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         if (!is_finite(mesh.positions[v])) infinite.add(v);
@@ -114,10 +114,10 @@ std::vector<std::string> broken_invariants(const Scene& scene) {
         for (const auto& sentence : broken_invariants(part.mesh))
             out.push_back(fmt::format("part {} ({}): {}", p, part.name, sentence));
         if (part.document >= static_cast<int>(scene.documents.size()))
-            out.push_back(fmt::format("part {} ({}): names no document", p, part.name));
+            out.push_back(fmt::format("part {} ({}): refers to no document", p, part.name));
         for (const auto& primitive : part.mesh.primitives)
             if (primitive.material != none && primitive.material >= scene.materials.size())
-                out.push_back(fmt::format("part {} ({}): a primitive names no material", p, part.name));
+                out.push_back(fmt::format("part {} ({}): a primitive refers to no material", p, part.name));
     }
     return out;
 }

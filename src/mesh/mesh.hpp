@@ -6,9 +6,9 @@
 //   its two ends, which are wedges; a mesh has faces, or lines, or neither
 //
 // Topology is defined by vertices: two faces are neighbours if they share two vertices, regardless of their
-// wedges. A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with
-// two wedges. Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable;
-// see mesh/topology.hpp for derived data and mesh/invariants.hpp for the invariants.
+// wedges. A wedge is one attribute tuple at a vertex (a vertex in glTF): a UV seam is a vertex with two
+// wedges. Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable; see
+// mesh/topology.hpp for derived data and mesh/invariants.hpp for the invariants.
 
 #include "base/math/vec.hpp"
 #include "mesh/attribute_changes.hpp"

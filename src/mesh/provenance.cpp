@@ -237,11 +237,11 @@ AttributeChange change_of(const Attribute& a, const Ancestry& ancestry) {
     switch (a.role) {
     case Role::normal:
     case Role::tangent:
-        change.why = "mixed at new elements and renormalised";
+        change.why = "mixed at new elements, then normalised";
         break;
     case Role::joints:
     case Role::weights:
-        change.why = "combined at new elements, the strongest kept and renormalised";
+        change.why = "combined at new elements: the largest are kept, then normalised";
         break;
     case Role::generic:
     case Role::uv:
@@ -257,8 +257,8 @@ AttributeChange change_of(const Attribute& a, const Ancestry& ancestry) {
 void expect_size(const Mesh& to, Domain domain, std::size_t found) {
     if (to.count(domain) != found)
         throw Error(ErrorKind::bug, "E-BUG",
-                    std::string("the lineage of the ") + to_string(domain) + " domain has " +
-                        std::to_string(found) + " elements, the mesh has " +
+                    std::string("the provenance of the ") + to_string(domain) + " domain has " +
+                        std::to_string(found) + " elements, but the mesh has " +
                         std::to_string(to.count(domain)));
 }
 

@@ -8,7 +8,7 @@
 namespace facetmill {
 
 /// The undirected edges of a mesh, sorted by (low vertex, high vertex), and the corners that run along each.
-/// Corner c of face f stands for the edge from its vertex to the next corner's vertex in f. Edges from a
+/// Corner c of face f represents the edge from its vertex to the next corner's vertex in f. Edges from a
 /// vertex to itself (degenerate faces) are left out.
 struct EdgeTable {
     struct Edge {

@@ -328,10 +328,10 @@ bool Declaration::parse(const Value& value, void* target, std::string_view owner
         if (shorthand) return shorthand(value, target, problems);
         const Option* bare = primary();
         if (const Option* o = bare ? other_choice(*this, *bare, value) : nullptr) {
-            problems.add(
-                value.mark, "E-TYPE",
-                fmt::format("a bare value of {} sets '{}', found {}", owner, bare->name, value.described()),
-                fmt::format("{} is a value of '{}', so write that name", value.text, o->name));
+            problems.add(value.mark, "E-TYPE",
+                         fmt::format("a bare value of {} is its option '{}', found {}", owner, bare->name,
+                                     value.described()),
+                         fmt::format("{} is a value of '{}', so write that name", value.text, o->name));
             return false;
         }
         if (const std::string hint = bare ? hint_of_number(*this, *bare, owner, value) : ""; !hint.empty()) {

@@ -55,7 +55,7 @@ struct Option {
     Function<bool(const Option&, const Value&, void* target, Problems&)> parse;
     /// The number in the struct that the range limits, if there is one.
     Function<std::optional<double>(const void* target)> magnitude;
-    std::vector<Synonyms> synonyms; ///< what other programs call it
+    std::vector<Synonyms> synonyms; ///< its names in other programs
     bool may_be_true = false;       ///< true is one of its values, besides other kinds
 
     /// Whether a value may be a list, because several are allowed or because a value is a list.

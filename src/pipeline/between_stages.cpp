@@ -65,7 +65,7 @@ void check_left(const Step& step, const SceneState::Left& left, const Scene& sce
           std::equal(scene.parts.begin(), scene.parts.end(), left.surfaces->begin(), is_right))))
         return;
     throw Error(ErrorKind::bug, "E-INVARIANT",
-                fmt::format("before '{}' the scene is no longer as the stage before left it", step.name));
+                fmt::format("the scene has changed between '{}' and the stage before it", step.name));
 }
 
 } // namespace facetmill::pipeline

@@ -136,7 +136,7 @@ void require_jobs(const Plan& plan, const CellPlan& cells) {
     if (cells.steps == 0)
         refuse_jobs(
             fmt::format("the run has no cells: {}", cells.why.empty() ? "--partition never" : cells.why),
-            "use --partition always, or do it without jobs");
+            "use --partition always, or run it without jobs");
     const Step& last = plan.steps[cells.steps - 1];
     if (last.info->name != "simplify")
         refuse_jobs(

@@ -141,7 +141,7 @@ class Builder : public YAML::EventHandler {
         return static_cast<std::size_t>(std::max(0, mark.pos)) + skipped_;
     }
 
-    /// Where the content of a node begins: yaml-cpp's mark is at its anchor or tag.
+    /// The start of a node's content: yaml-cpp's mark is at its anchor or tag.
     std::size_t content(const YAML::Mark& mark) const { return content_at(source_.text(), offset(mark)); }
 
     /// YAML reads `${x}` in braces or brackets as "$" and a map; replaces its error by a clear message.

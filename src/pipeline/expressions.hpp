@@ -42,8 +42,8 @@ bool is_name_from_file(const Value& value, const Scope& scope);
 /// True if any value in the tree is known only at run time.
 bool is_deferred(const Value& value);
 
-/// The position of the first occurrence of piece within the mark, at least `from` bytes after its start.
-/// Without one on its line, the mark itself.
+/// The position of the first occurrence of piece within the mark, at least `from` bytes after its start. If
+/// its line has none, the mark itself.
 [[nodiscard]] Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from = 0);
 
 /// The stem of the path's file name (without .gz or .zst), and its suffix.

@@ -40,9 +40,9 @@ class Failures {
             if (const auto limit = told_as_limit(e, what, where))
                 add(*limit);
             else
-                add(ErrorKind::bug, {{Severity::error, "E-BUG",
-                                      fmt::format("{} failed in a way it never should: {}", what, e.what()),
-                                      where, "please report it, with the pipeline and the input"}});
+                add(ErrorKind::bug,
+                    {{Severity::error, "E-BUG", fmt::format("{} failed unexpectedly: {}", what, e.what()),
+                      where, "please report it, with the pipeline and the input"}});
         }
         return false;
     }

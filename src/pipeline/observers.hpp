@@ -14,7 +14,7 @@ void watch_trace(Engine& engine, Trace& trace);
 /// Fails a stage that breaks an invariant of scenes.
 void watch_invariants(Engine& engine);
 /// Records the properties of the final scene for reports, and small pictures of it for an index. If a check
-/// fails, the properties are those of the scene that failed.
+/// fails, the properties describe the scene that failed.
 void watch_record(Engine& engine);
 /// Measures the model for a table: as loaded, when a check fails, and at the end.
 void watch_model(Engine& engine);

@@ -82,10 +82,10 @@ Declaration param_declaration() {
     auto types = single_types();
     types.push_back({"list", Type::list, ""});
     Declare<ParamOptions> d;
-    d.choice("type", &ParamOptions::type, types, "What the parameter holds").required().primary();
+    d.choice("type", &ParamOptions::type, types, "The type of the value").required().primary();
     d.choice("of", &ParamOptions::of, single_types(),
              "The type of each value of a list. By default, it follows from the text of the value");
-    d.option("help", &ParamOptions::help, "What the parameter is for");
+    d.option("help", &ParamOptions::help, "The purpose of the parameter");
     d.option("required", &ParamOptions::required, "Whether it must be given");
     d.option("min", &ParamOptions::min, "The least value");
     d.option("max", &ParamOptions::max, "The greatest value");
@@ -220,7 +220,8 @@ class Params {
                              single != Type::choice && single != Type::list;
         for (const auto& [key, limit] : {std::pair{"min", &options.min}, std::pair{"max", &options.max}})
             if (*limit && !limited)
-                refuse(key, fmt::format("'{}' has no order that {} could limit", entry.key, key),
+                refuse(key,
+                       fmt::format("values of '{}' have no order, so {} cannot limit them", entry.key, key),
                        options.is_list() ? "leave it out, or write of: number"
                                          : "leave it out, or write type: number");
         if (!good || !options.min || !options.max) return good;

@@ -86,7 +86,7 @@ void check_keys(const Value& document, const std::vector<std::string>& keys, Pro
                          "it belongs to the pipeline that includes it");
         else
             problems.add(entry.key_mark, "E-KEY", fmt::format("a pipeline has no key '{}'", entry.key),
-                         suggestion(entry.key, keys) + "; keys that begin with x- are free");
+                         suggestion(entry.key, keys) + "; names of your own keys begin with x-");
     }
 }
 
@@ -164,7 +164,7 @@ std::vector<std::string> read_allowed(const Value* allow, const PlanSettings& se
 }
 
 /// Adds E-LIMITS for each step that judges written files before any `write`. written: a write came before the
-/// steps. Returns true if one came before their end.
+/// steps. Returns true if a write came before their end.
 bool check_judged_files(const Steps& steps, bool written, Problems& problems) {
     for (const Step& step : steps) {
         if (step.when && step.when->known && !*step.when->known) continue;

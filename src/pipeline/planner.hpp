@@ -62,7 +62,7 @@ class Planner {
                      bool& has_scene);
     void plan_foreach(Step& step, const Value& item, const Value::Entry& entry, const Scope& scope,
                       const Position& inner, bool& has_scene);
-    /// base: the key of the step's stage, which is its name unless the item sets one.
+    /// base: the key of the step's stage, which is the step's name unless the item sets a name.
     void common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
                      const Position& position);
     void name_step(Step& step, const Value* given, const Scope& scope, const std::string& base,

@@ -207,7 +207,7 @@ namespace {
 /// True for the value of an option such as -D or --report.
 bool is_of_option(const Mark& mark) { return mark.known() && mark.source->name.starts_with('-'); }
 
-/// The reports of a refused run: only those of --report, if the command line alone is wrong.
+/// The reports of a refused run; only the reports of --report if all errors are on the command line.
 std::vector<std::string> reports_of_refusal(const Plan& plan, const Problems& problems) {
     std::vector<std::string> reports = plan.reports;
     const auto& all = problems.all();

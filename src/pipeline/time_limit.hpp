@@ -13,7 +13,8 @@
 namespace facetmill::pipeline {
 
 /// Passes progress on, and throws a limit error (E-TIME) when the time is over. Work that reports no progress
-/// ends first. Since the last report comes before outputs get their names, a late run never writes any.
+/// is not interrupted. Since the last report comes before outputs get their names, a late run never writes
+/// outputs.
 class TimeLimit : public Progress {
   public:
     /// to: the receiver of the progress, or null. seconds: the limit, or 0 for none.

@@ -11,7 +11,8 @@ struct Said {
     std::string message, hint;
 };
 
-/// The text from `at` to the end of the value: a closing brace or comma in braces, or a comment.
+/// The text from `at` to the end of the value: before a comma, a closing bracket or brace, a comment or the
+/// end of the line.
 std::string value_at(const std::string& text, std::size_t at) {
     const std::size_t end = std::min(text.size(), text.find_first_of(",]}\r\n", at));
     std::string value = text.substr(at, end - at);

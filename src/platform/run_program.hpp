@@ -10,7 +10,7 @@
 
 namespace facetmill {
 
-/// The executable file of this name in the folders of PATH; a name with a slash is looked up as it is.
+/// The executable file of this name in the folders of PATH; a name with a slash is used as a path.
 [[nodiscard]] std::optional<std::filesystem::path> program_in_path(const std::string& name);
 
 struct ProgramSettings {

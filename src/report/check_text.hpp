@@ -6,8 +6,8 @@
 
 namespace facetmill::report {
 
-/// The verdict: "ok: everything held, and all outputs were written", "failed with exit code 1: no output was
-/// written".
+/// The verdict: "passed: all checks held and all outputs were written", "failed with exit code 1: no output
+/// was written".
 [[nodiscard]] std::string verdict_text(const RunRecord& record);
 /// The number of passed checks of a run: "5 of 6".
 [[nodiscard]] std::string passed_text(const RunRecord& record);

@@ -30,7 +30,7 @@ std::string_view plain_for(const Plain (&table)[n], std::string_view text) {
 constexpr Plain obstacles[] = {
     {"oriented inconsistently", "the faces around it disagree about which side is outside"},
     {"fewer than three edges", "it is a slit without width"},
-    {"more than two faces", "several sheets of the surface meet there"},
+    {"more than two faces", "several sheets of the surface meet at it"},
     {"more than", "it is larger than the holes that we close"},
     {"single face", "it surrounds a single loose triangle"},
     {"not planar", "its border does not lie in a plane"},
@@ -44,7 +44,7 @@ constexpr Plain obstacles[] = {
     {"rounding", "the surfaces are closer together than the file format can store"},
 };
 
-/// A property that fails: what the customer sees, what to do, and the repair that would have helped.
+/// A property that fails: the sentence for the customer, the request, and the repair that would have helped.
 struct FailedProperty {
     std::string_view property;
     std::string_view what; ///< {} is the place: " near (1, 2, 3)"
@@ -68,7 +68,7 @@ constexpr std::string_view too_close_text =
 
 constexpr FailedProperty failed_properties[] = {
     {"oriented",
-     "Neighbouring faces look in opposite directions{}, so inside and outside cannot be told apart.",
+     "Neighbouring faces point in opposite directions{}, so inside and outside cannot be told apart.",
      ask_for_normals, "orient"},
     {"outward_oriented", "Part of the surface is inside out{}.", ask_for_normals, "orient"},
     {"edge_manifold", "More than two faces meet at an edge{}, so inside and outside cannot be told apart.",
@@ -213,7 +213,7 @@ std::string words_of(std::string name) {
     return name;
 }
 
-/// What must hold, without the value in scene units in parentheses.
+/// The required value, without the value in scene units in parentheses.
 std::string required(const Check& check) { return check.expected.substr(0, check.expected.find(" (")); }
 
 /// The text about a size that is out of its limits.
@@ -281,7 +281,7 @@ std::string missing_file(const std::string& message) {
 constexpr std::string_view our_fault = "We could not process the model because of a problem on our side. "
                                        "Your file may be fine. We will look into it.";
 
-/// Texts about errors that say more than their kind, by their ids without the first letter.
+/// Texts for errors whose id is more specific than their kind, by the id without its first letter.
 constexpr Plain reasons[] = {
     {"EMPTY",
      "The file has no surface: it contains no faces. Please export the model as a mesh, and send the "

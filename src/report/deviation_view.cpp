@@ -65,7 +65,7 @@ double colour_limit(const std::vector<float>& distances, double most, double dia
 }
 
 FaceTree tree_of_earlier(const Surface& surface, const Box& bounds) {
-    constexpr std::size_t many = 250000; // beyond this, building the tree takes longer than the distances
+    constexpr std::size_t many = 250000; // beyond this, building the tree takes longer than measuring
     return FaceTree::over(surface, bounds,
                           surface.size() < many ? FaceTree::Use::few : FaceTree::Use::coarse);
 }

@@ -14,8 +14,8 @@ namespace facetmill::report {
 /// The outputs: their shape compared with the input, and their deviation from it.
 [[nodiscard]] std::string output_sections(const RunRecord& record);
 /// The deviation of a scene from an earlier scene: a coloured picture, a scale with a histogram, and the
-/// magnified worst location. id: the id of its pictures in the page. whole: the scene whose diagonal the
-/// view has, if different from the earlier scene.
+/// magnified worst location. id: the id of its pictures in the page. whole: the name of the scene whose
+/// diagonal is the basis of percentages, if it is not the earlier scene.
 [[nodiscard]] std::string deviation_html(const DeviationView& view, const std::string& id,
                                          const std::string& name, const std::string& whole = {});
 /// Inputs and outputs: bytes by kind, digests, the results of reading back.

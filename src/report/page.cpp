@@ -70,7 +70,7 @@ PictureSettings Page::sized_for_page(double part) const {
 }
 
 /// The camera of the previous picture, so that the two can be compared. A new camera is used if the scene
-/// extends far beyond its view, or is much smaller. The up axis stays that of the first picture.
+/// extends far beyond its view, or is much smaller. All pictures use the up axis of the first one.
 const Camera& Page::camera_for(const Scene& scene) {
     PictureSettings as_before;
     const Box before = camera_.seen;

@@ -74,7 +74,7 @@ class Page {
     bool is_measured(const PageStep& step, std::size_t first_output) const;
     /// Replaces after() if pictures are omitted.
     void measure(const PageStep& step, const Scene& scene, std::size_t first_output);
-    /// Adds pictures of the failed checks from first_check on; if the run ends there, also its scene.
+    /// Adds pictures of the failed checks from first_check on, and the scene if the run ends with them.
     void failures(const std::string& step, const Scene& scene, std::size_t first_check);
     /// True if the result with this name, or the final scene, differs from the reference.
     bool differs(const std::string& name) const;

@@ -71,8 +71,9 @@ Json info_schema() {
         {{"id", typed("string")}, {"message", typed("string")}, {"exit_code", typed("integer")}});
     scene["properties"]["file"] = typed("string", "The path of the file, as given.");
     Json drawn = box_schema();
-    drawn["description"] = "The box of what viewers draw: skinned and morphed parts in their default pose, "
-                           "animated nodes at their largest scale, without hidden parts and levels.";
+    drawn["description"] =
+        "The bounding box of the drawn contents: skinned and morphed parts in their default pose, animated "
+        "nodes at their largest scale, without hidden parts and levels.";
     scene["properties"]["drawn_bounds"] = std::move(drawn);
     scene["properties"]["drawn_area"] =
         nullable("number", "The area of all parts, with skinned and morphed parts in their default pose.");

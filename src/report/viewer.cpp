@@ -146,7 +146,7 @@ std::optional<Json> ViewedScenes::packed(const Scene& given, const std::string& 
     Distances distances;
     if (from.tree && !from.tree->empty()) distances = distances_of(preview, *from.tree);
     PackedMesh mesh = report::packed(preview, distances.all, distances.scale);
-    // A scene without an up axis uses that of its file, otherwise that of the first.
+    // A scene without an up axis uses the axis of its file, otherwise the axis of the first scene.
     const UpAxis up = scene.up == UpAxis::unknown ? from.file_up : scene.up;
     const Camera camera = first_ && first_up_ == up ? *first_
                           : up == scene.up          ? camera_of(scene)

@@ -141,7 +141,7 @@ bool read_length_range(const Property& property, const Value& value, Assertion& 
     if (good && value.entries.empty()) return wrong_kind(property, value, problems);
     if (good && count == 1 && !verify_length(property, value, out, problems)) return false;
     if (good && !may_hold(out)) {
-        problems.add(value.mark, "E-RANGE", "no length is at least min and at most max",
+        problems.add(value.mark, "E-RANGE", "min is larger than max, so no length is in the range",
                      "exchange min and max");
         return false;
     }

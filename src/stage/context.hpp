@@ -48,7 +48,7 @@ struct WrittenScene {
 
 struct Purpose; // stage/purpose.hpp
 
-/// What the steps before the current one wrote and checked, on its way through branches.
+/// The files and checks of the steps before the current one, along its branch.
 struct SceneTrail {
     std::size_t scene = 0; ///< the number of the current scene
     std::vector<WrittenScene> written;

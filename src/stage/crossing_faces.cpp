@@ -40,8 +40,8 @@ void warn_of_fans(const FanCounts& faces, Context& context) {
                 "triangles, which may overlap: {}",
                 faces.fans));
     if (faces.overlapping > 0)
-        context.warn("W-FANS", fmt::format("{} {} around points several times, and the triangles overlap "
-                                           "there: otherwise the neighbouring faces would be open",
+        context.warn("W-FANS", fmt::format("{} {} around points several times, so their triangles overlap: "
+                                           "otherwise the surface would be open",
                                            counted(faces.overlapping, "face"),
                                            faces.overlapping == 1 ? "winds" : "wind"));
 }

@@ -7,8 +7,8 @@
 
 namespace facetmill {
 
-/// Like the other perform. surfaces: the surfaces of the scene, if known. It receives the result's surfaces,
-/// or none. It is also none if this throws.
+/// Like the other perform. surfaces: the surfaces of the scene, if known; replaced by the surfaces of the
+/// result, or none. Also none if this throws.
 [[nodiscard]] Scene perform(const Stage& stage, Scene scene, Context& context,
                             std::optional<std::vector<PartSurface>>& surfaces);
 

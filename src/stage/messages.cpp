@@ -21,8 +21,8 @@ const RegisterMessages stage_messages{
      "In "
      "a pipeline, use `load: {unit: mm, up: z}`, or `transform` before the stage."},
     {"W-FANS",
-     "Faces were replaced by triangles that may overlap. The faces have no area, are non-planar and "
-     "intersect themselves, or wind several times around some points with their neighbours.",
+     "Faces were replaced by triangles that may overlap. The faces have no area, or they are non-planar and "
+     "intersect themselves. Or a face with neighbours winds around some points several times.",
      "Check the faces given in the message."},
     {"W-LINES",
      "A file has no lines for tubes, tubes intersect themselves at sharp corners, or a format cannot store "
@@ -37,8 +37,8 @@ const RegisterMessages stage_messages{
      "`transform` and `merge` work on points."},
     {"W-REST-POSE",
      "A limit of the deviation, such as `max_error`, holds for the rest pose of a skinned or morphed part. "
-     "Where joints bend the surface or morph targets move it, the deviation is larger. `simplify` measures "
-     "it in sampled poses.",
+     "The deviation is larger if joints bend the surface or morph targets move it. `simplify` measures it in "
+     "sampled poses.",
      "Use `simplify` with a ratio for parts that move, as in `simplify: 50%`, and look at the result in "
      "several poses."},
     {"W-SNAPPED",

@@ -18,8 +18,8 @@ class ReferenceMesh {
     const Mesh& mesh() const { return mesh_; }
     const FaceTree& tree() const { return *tree_; }
 
-    /// What the elements of a part get: a mesh with its vertices, wedges and faces in its own space, and the
-    /// attributes of the reference. None if the part is flattened by its transform.
+    /// The attributes of the reference for the elements of a part: a mesh with the part's vertices, wedges
+    /// and faces, in its own space. None if the part is flattened by its transform.
     struct Carried {
         Mesh mesh;
         NearestSources sources; ///< distances are in world space

@@ -3,7 +3,7 @@
 namespace facetmill {
 
 const RegisterMessages stages_messages{
-    {"E-ATTRIBUTE", "A part has no attribute with the name and kind that an option asks for.",
+    {"E-ATTRIBUTE", "A part has no attribute with the requested name and kind.",
      "Run `facetmill info` to list the attributes of a file. The help of `render` lists the quantities that "
      "it can measure.",
      ErrorKind::stage},

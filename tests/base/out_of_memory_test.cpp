@@ -17,7 +17,7 @@ TEST_CASE("what ends for want of memory or threads is told as a limit", "[base]"
     };
     CHECK(told(std::bad_alloc()) == "not enough memory for 'relax'");
     CHECK(told(no_memory) == "not enough memory for 'relax'");
-    CHECK(told(no_thread).starts_with("no thread could be begun for 'relax'"));
+    CHECK(told(no_thread).starts_with("a thread cannot start for 'relax'"));
     CHECK(told(std::runtime_error("pthread_create has failed: Resource temporarily unavailable")) ==
           told(no_thread));
     CHECK(told(other) == "nothing");

@@ -181,7 +181,7 @@ class Cells(LargeCase):
             "pipe", "--memory", "64M", "load", "large.ply", "!", "validate", "--components", 3, expect=1).stderr)
         self.assertIn("'outward_oriented' needs the whole mesh", self.mill(
             "pipe", "--memory", "64M", "load", "large.ply", "!", "validate", "--for", "printing", expect=2).stderr)
-        for name, why in (("o.obj", "obj is not written cell by cell"), ("o.ply --ascii", "text is not written"),
+        for name, why in (("o.obj", "obj cannot be written from cells"), ("o.ply --ascii", "text cannot be written"),
                           ("o.glb --draco", "compression needs the whole mesh")):
             self.assertIn(why, self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", "write", *name.split(),
                                          expect=2).stderr)
@@ -229,7 +229,7 @@ class Cells(LargeCase):
                       "--faces", 280000)
         self.assertIn("normals and tangents need the whole mesh", self.mill(
             "pipe", "--memory", "64M", *load, "p/tileset.json", "--normals", "smooth", expect=2).stderr)
-        self.assertIn("set tiles.faces to fewer", self.mill("pipe", "--memory", "50M", *load, "p/tileset.json",
+        self.assertIn("a smaller tiles.faces", self.mill("pipe", "--memory", "50M", *load, "p/tileset.json",
                                                             expect=7).stderr)
         self.write("q/tileset/r.glb/taken", "")  # a tile cannot have its name
         self.assertIn("E-DIRECTORY", self.mill("pipe", "--memory", "64M", *load, "q/tileset.json", expect=4).stderr)

@@ -186,7 +186,7 @@ FILES = {
 FOLLOWED = [
     ("E-ARGUMENT", "render part.off", "facetmill render part.off -o part.png", "render part.off -o part.png"),
     ("E-ARGUMENT", "run part.off", "facetmill run web part.off", "run web part.off"),
-    ("E-ASSET-ROOT", "pipe load part.off --asset_root none ! validate", "name the folder",
+    ("E-ASSET-ROOT", "pipe load part.off --asset_root none ! validate", "give the folder",
      "pipe load part.off --asset_root . ! validate --closed true"),
     ("E-ATTRIBUTE", "pipe load part.off ! render r.png --attribute nonesuch", "area",
      "pipe load part.off ! render r.png --attribute area"),

@@ -195,7 +195,7 @@ class Pages(Case):
         self.ball_of_broken_texture()
         page, _ = self.report("load", "ball.gltf", "!", "relax", "1", "!", "write", "o.glb", expect=None)
         self.assertEqual(page.count("not drawn: it is broken"), 1)
-        self.assertIn("the plain colour is drawn in its place", page)
+        self.assertIn("the plain colour is drawn instead", page)
 
     def test_a_comparison_tells_what_it_does_not_draw(self):
         self.ball_of_broken_texture()
@@ -205,7 +205,7 @@ class Pages(Case):
             self.assertEqual(run.stderr.count("ball.gltf: warning[W-TEXTURE]: images[0] (broken.png): not drawn: it is broken"), 1, run.stderr)
             page = (self.dir / "d.html").read_text()
             self.assertEqual(page.count("not drawn: it is broken"), 1)
-            self.assertIn("the plain colour is drawn in its place", page)
+            self.assertIn("the plain colour is drawn instead", page)
         self.assertNotIn("not drawn", self.mill("diff", *files, expect=1).stderr)  # there are no pictures
         for folder in ("x", "y"):
             (self.dir / folder).mkdir()

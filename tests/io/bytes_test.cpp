@@ -38,7 +38,7 @@ TEST_CASE("gzip is inflated, members one after another, and its stored bytes are
                     (dir / "a.gz").string()));
     put(dir / "cut.gz", two.substr(0, packed.size() - 20));
     CHECK(failure([&] { Input::open(dir / "cut.gz"); }) ==
-          fmt::format("malformed [E-GZIP] '{}' is not whole gzip: it ends early near byte {}",
+          fmt::format("malformed [E-GZIP] '{}' cannot be decompressed as gzip: it ends early near byte {}",
                       (dir / "cut.gz").string(), packed.size() - 20));
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("text that is no whole UTF-16 is refused with its place", "[io]") {
     CHECK(refused(little + std::string("\x00\xde\x00\xde", 4)) == half + "2 | save it as UTF-8");
     CHECK(refused(little + std::string("\x3d\xd8\x41\x00", 4)) == half + "2 | save it as UTF-8");
     CHECK(refused(little + std::string("\0\0v\0\0\0", 6)) ==
-          "malformed [E-ENCODING] 'a.obj' is UTF-32, which is not read | save it as UTF-8");
+          "malformed [E-ENCODING] 'a.obj' is UTF-32, which facetmill cannot read | save it as UTF-8");
 }
 
 TEST_CASE("every text format is read in UTF-8 with a mark and in UTF-16", "[io]") {

@@ -131,9 +131,9 @@ TEST_CASE("a broken OFF is refused with its place", "[io]") {
          "limit [E-SIZE] a.off: 353535235358 vertices and 6 faces are more than facetmill supports"},
         {"OFF\n1000 6 0\n0 0 0\n", "malformed [E-OFF] a.off:2: the header gives 1000 vertices and 6 faces, "
                                    "but the remaining 9 bytes cannot hold them"},
-        {"4OFF\n1 0 0\n0 0 0 0\n", "malformed [E-OFF] a.off:1: '4OFF' is a kind of OFF that is not read: "
-                                   "points have three coordinates here | expected "
-                                   "OFF with any of the prefixes ST, C and N, in this order"},
+        {"4OFF\n1 0 0\n0 0 0 0\n", "malformed [E-OFF] a.off:1: facetmill cannot read '4OFF': it supports "
+                                   "only points with three coordinates | expected OFF "
+                                   "with any of the prefixes ST, C and N, in this order"},
     };
     for (const auto& [text, message] : cases) CHECK(reading("a.off", text) == message);
 }

@@ -9,8 +9,8 @@ using io::hint_for_writing;
 
 TEST_CASE("a format that is not read is named with what to export or to convert it with", "[io]") {
     CHECK(hint_for_reading("scans/a.LAS") ==
-          "it is a cloud of points, by its name: convert it to .ply, with CloudCompare "
-          "or PDAL; a surface is made of points there, too");
+          "its name suggests a cloud of points: convert it to .ply, with CloudCompare or PDAL, which can "
+          "also make a surface from points");
     CHECK(hint_for_reading("a.fbx").find("export it as glTF (.glb)") != std::string::npos);
     CHECK(hint_for_reading("a.blend.gz").find("Blender") != std::string::npos);
     CHECK(hint_for_reading("a.step").find("FreeCAD") != std::string::npos);

@@ -36,13 +36,13 @@ TEST_CASE("zstd is decompressed, frames one after another, and its stored bytes 
           fmt::format("limit [E-SIZE] 'b' gives more than {} bytes | write it to a file first, uncompressed",
                       text.size() - 1));
     CHECK(opening(frame.substr(0, frame.size() - 20), SIZE_MAX) ==
-          fmt::format("malformed [E-ZSTD] 'b' is not whole zstd: it ends early near byte {}",
+          fmt::format("malformed [E-ZSTD] 'b' cannot be decompressed as zstd: it ends early near byte {}",
                       frame.size() - 20));
     std::string changed = frame;
     changed[frame.size() / 2] = static_cast<char>(changed[frame.size() / 2] ^ 0x55);
-    CHECK(opening(changed, SIZE_MAX).starts_with("malformed [E-ZSTD] 'b' is not whole zstd: "));
-    CHECK(
-        opening(frame + "what follows", SIZE_MAX).starts_with("malformed [E-ZSTD] 'b' is not whole zstd: "));
+    CHECK(opening(changed, SIZE_MAX).starts_with("malformed [E-ZSTD] 'b' cannot be decompressed as zstd: "));
+    CHECK(opening(frame + "what follows", SIZE_MAX)
+              .starts_with("malformed [E-ZSTD] 'b' cannot be decompressed as zstd: "));
 }
 
 TEST_CASE("zstd that unpacks as no mesh does, or wants a huge window, ends at a limit", "[io]") {
@@ -57,9 +57,9 @@ TEST_CASE("zstd that unpacks as no mesh does, or wants a huge window, ends at a 
     const std::string header{"\x28\xb5\x2f\xfd\x00\xa8\x01\x00\x00\x00\x00\x00", 12};
     put(dir / "window.zst", header);
     CHECK(failure([&] { io::Input::open(dir / "window.zst"); })
-              .starts_with(
-                  fmt::format("malformed [E-ZSTD] '{}' is not whole zstd: Frame requires too much memory",
-                              (dir / "window.zst").string())));
+              .starts_with(fmt::format(
+                  "malformed [E-ZSTD] '{}' cannot be decompressed as zstd: Frame requires too much memory",
+                  (dir / "window.zst").string())));
 }
 
 TEST_CASE("names say how a file is compressed", "[io]") {

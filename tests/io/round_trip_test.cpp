@@ -136,7 +136,7 @@ TEST_CASE("PLY keeps a surface whole over texture seams, and splits it at others
     const Trip split = trip(named_scene(mesh), "ply");
     CHECK(split.scene.parts.at(0).mesh.vertex_count() == mesh.wedge_count());
     CHECK(changes(split.written) == "vertex vertices recomputed: 8 vertices became 24: PLY has one set of "
-                                    "attributes at a vertex, so seams split\n");
+                                    "attributes at a vertex, so vertices on seams were split\n");
     mesh.drop("NORMAL", Domain::wedge);
     for (const auto& settings : ply_settings) {
         const Trip whole = trip(named_scene(mesh), "ply", settings);
@@ -173,7 +173,8 @@ TEST_CASE("STL holds triangles, welded again on reading", "[io]") {
         CHECK(t.scene.parts.at(0).mesh.vertex_count() == shapes::icosphere(1).vertex_count());
         const Trip quads = trip(named_scene(shapes::quad_cube()), "stl", {.ascii = ascii});
         CHECK(quads.scene.face_count() == 12);
-        CHECK(changes(quads.written) == "face polygons recomputed: STL holds triangles: cut into them\n");
+        CHECK(changes(quads.written) ==
+              "face polygons recomputed: cut into triangles, because STL stores only triangles\n");
     }
     CHECK(changes(trip(named_scene(shapes::uv_cube()), "stl").written).find("STL stores only positions") !=
           std::string::npos);
@@ -338,8 +339,8 @@ TEST_CASE("colours of vertices under the plain keyword OFF are read", "[io]") {
     CHECK(two.positions[3] == Vec3{0, 0, 1});
     CHECK(two.attributes.empty());
     CHECK(failure([&] { read("OFF\n3 1 0\n0 0 0 0 0 -1\n1 0 0 0 0 -1\n0 1 0 0 0 -1\n3 0 1 2\n"); }) ==
-          "malformed [E-OFF] a.off:2: each vertex has 6 numbers, and OFF promises three | "
-          "name what follows the coordinates: NOFF for normals, COFF for colours");
+          "malformed [E-OFF] a.off:2: each vertex has 6 numbers, but OFF has three | begin the file with "
+          "NOFF if normals follow the coordinates, or COFF for colours");
 }
 
 TEST_CASE("a file that does not hold what was written is found out", "[io]") {

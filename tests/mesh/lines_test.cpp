@@ -84,7 +84,7 @@ TEST_CASE("invariants of lines are told", "[mesh]") {
     mesh.line_primitive = {0, 0, 1};
     CHECK(broken_invariants(mesh) ==
           std::vector<std::string>{"5 ends of lines are not a multiple of two",
-                                   "lines that name no wedge: 1, first 4", "3 primitives of lines, not 2",
+                                   "lines that refer to no wedge: 1, first 4", "3 primitives of lines, not 2",
                                    "primitives of lines out of range: 1, first 2"});
 }
 

@@ -61,7 +61,7 @@ TEST_CASE("invariants say what is broken", "[mesh]") {
     mesh.corners[4] = 99;
     mesh.positions[3].x = NAN;
     mesh.attributes.push_back({"quality", Domain::vertex, Role::generic, 1, false, std::vector<float>(3)});
-    CHECK(broken_invariants(mesh) == Strings{"corners that name no wedge: 1, first 4",
+    CHECK(broken_invariants(mesh) == Strings{"corners that refer to no wedge: 1, first 4",
                                              "positions that are not finite: 1, first 3",
                                              "vertex attribute quality holds 3 numbers, not 8"});
     Mesh offsets = shapes::tetrahedron();

@@ -162,12 +162,12 @@ TEST_CASE("a lineage of the wrong size is a bug", "[mesh]") {
         from.attributes.push_back(
             {"group", Domain::face, Role::index, 1, false, std::vector<std::int32_t>(from.face_count())});
         CHECK_THROWS_WITH(inherit_attributes(to, from, d),
-                          "[E-BUG] the lineage of the face domain has 0 elements, the mesh has 12");
+                          "[E-BUG] the provenance of the face domain has 0 elements, but the mesh has 12");
     }
     SECTION("of vertices always") {
         to.positions.emplace_back();
         CHECK_THROWS_WITH(inherit_attributes(to, from, d),
-                          "[E-BUG] the lineage of the vertex domain has 8 elements, the mesh has 9");
+                          "[E-BUG] the provenance of the vertex domain has 8 elements, but the mesh has 9");
     }
 }
 

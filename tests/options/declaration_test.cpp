@@ -116,9 +116,9 @@ TEST_CASE("a list option takes one value or several", "[options]") {
 }
 
 TEST_CASE("a bare value that is a choice of another option is answered with its name", "[options]") {
-    CHECK(complaints(Value::scalar("plain")) ==
-          "E-TYPE a bare value of relax sets 'iterations', found 'plain' (plain is a value of 'method', so "
-          "write that name)\n");
+    CHECK(complaints(Value::scalar("plain")) == "E-TYPE a bare value of relax is its option 'iterations', "
+                                                "found 'plain' (plain is a value of 'method', so "
+                                                "write that name)\n");
     CHECK(complaints(Value::scalar("fancy")) == "E-TYPE expected an integer, found 'fancy'\n");
 }
 

@@ -64,7 +64,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "p.yaml:2:1: error[E-KEY]: a pipeline has no key 'stage'\n"
          "  stage: []\n"
          "  ^~~~~\n"
-         "  hint: did you mean 'stages'?; keys that begin with x- are free"},
+         "  hint: did you mean 'stages'?; names of your own keys begin with x-"},
         {"- a\n",
          "p.yaml:1:1: error[E-TYPE]: a pipeline is a map with facetmill and stages, found a list of 1\n"
          "  - a\n"
@@ -531,7 +531,7 @@ TEST_CASE("limits that a param's type does not have, or that nothing meets, are 
     CHECK(problem("{type: number, choices: [1, 2], default: 1}") ==
           "p.yaml:2:28: error[E-PARAM]: 'q' has choices, but its type is not choice");
     CHECK(problem("{type: text, min: 2, default: a}") ==
-          "p.yaml:2:26: error[E-PARAM]: 'q' has no order that min could limit");
+          "p.yaml:2:26: error[E-PARAM]: values of 'q' have no order, so min cannot limit them");
     CHECK(problem("{type: integer, min: 5, max: 2, default: 3}") ==
           "p.yaml:2:29: error[E-PARAM]: no value of 'q' is between 5 and 2");
     CHECK(problem("{type: integer, min: 2, max: 5, default: 3}") == "");
@@ -663,7 +663,7 @@ TEST_CASE("each value of a list has a type, and its own place in messages", "[pi
     CHECK(problem("{type: integer, of: ratio, default: 5}").find("E-PARAM") != std::string::npos);
     CHECK(problem("{type: list, of: text, default: 5}").find("expected an integer, found the text \"5\"") !=
           std::string::npos);
-    CHECK(problem("{type: list, min: 2, default: 5}").find("has no order that min could limit") !=
+    CHECK(problem("{type: list, min: 2, default: 5}").find("have no order, so min cannot limit them") !=
           std::string::npos);
     CHECK(problem("{type: list, of: list, default: 5}").find("E-CHOICE") != std::string::npos);
     CHECK(problem("{type: list, default: {a: 1}}").find("expected a list ([a, b]), found a map") !=

@@ -207,7 +207,7 @@ TEST_CASE("whatever a stage throws has a kind, an id and a place", "[pipeline]")
     CHECK(memory.errors.at(0).message == "not enough memory for 'test-fail'");
     const auto bug = failing("bug");
     CHECK(bug.exit_code == 70);
-    CHECK(bug.errors.at(0).message == "'test-fail' failed in a way it never should: index out of range");
+    CHECK(bug.errors.at(0).message == "'test-fail' failed unexpectedly: index out of range");
 }
 
 TEST_CASE("a missing input is found before anything runs", "[pipeline]") {

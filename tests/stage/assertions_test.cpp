@@ -107,7 +107,7 @@ TEST_CASE("lengths are written with units and percentages, and resolved", "[stag
           "E-TYPE 'longest_edge' is a length (2mm) or a range ({min: 1mm, max: 5%}), found 'true'");
     CHECK(limits_complaint(entry("max_extent", Value::map({{"min", {}, Value::scalar("2mm")},
                                                            {"max", {}, Value::scalar("1mm")}}))) ==
-          "E-RANGE no length is at least min and at most max (exchange min and max)");
+          "E-RANGE min is larger than max, so no length is in the range (exchange min and max)");
 }
 
 TEST_CASE("bounds lie between two corners", "[stage]") {

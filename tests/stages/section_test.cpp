@@ -131,7 +131,7 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
           "usage [E-TYPE] test.yaml:1:1: expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, "
           "x=10%, [A, B, C, D]), found 'w=2'");
     CHECK(refusal("{spacing: 9.5367431640625e-07}") ==
-          "limit [E-SECTION] the stack would have 1048577 planes, and at most 100000 are cut | choose a "
+          "limit [E-SECTION] the stack would have 1048577 planes, but at most 100000 are possible | choose a "
           "larger spacing");
     CHECK(refusal("{plane: z=2mm}") ==
           "usage [E-UNIT] 'plane' is 2mm, but the scene has no unit | give the unit of the file (load: "
@@ -156,7 +156,7 @@ TEST_CASE("section warns of contours that run clockwise or cross themselves", "[
     const auto run = run_stage("section", "z=0.5", scene_of(bow));
     REQUIRE(run.warnings() == std::vector<std::string>{"W-SECTION-CROSSES"});
     CHECK(run.record.warnings[0].message ==
-          "1 contour intersects itself; all that it winds around counts as inside");
+          "1 contour intersects itself: every region that it winds around counts as inside");
     CHECK(run.record.result["area"] == 0.5);
     CHECK(run.record.result["empty"] == 0);
 }

@@ -151,7 +151,7 @@ TEST_CASE("simplify: what cannot be is refused before anything is opened", "[sta
     const auto refusal = [](const char* options) {
         return test::failure([&] { run_stage("simplify", options, scene_of(shapes::cube())); });
     };
-    CHECK(refusal("{lods: [50%, 80%]}").find("simplify: lods: ratios go from fine to coarse") !=
+    CHECK(refusal("{lods: [50%, 80%]}").find("simplify: lods: ratios must go from fine to coarse") !=
           std::string::npos);
     CHECK(refusal("{lods: [50%], faces: 10}").find("simplify: lods has its own targets") !=
           std::string::npos);
@@ -203,13 +203,12 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
     CHECK(problems("1").find("write 100%, or name the option for a count (faces: 1)") != std::string::npos);
     CHECK(problems("5000").find("a ratio needs a point or a % (50%); for a count write faces: 5000") !=
           std::string::npos);
-    CHECK(problems("{lods: []}").find("simplify: lods: at least one ratio") != std::string::npos);
+    CHECK(problems("{lods: []}").find("simplify: lods needs at least one ratio") != std::string::npos);
     CHECK(problems("{lods: [50%], method: constrained, max_error: 1%, lock: boundary}") ==
-          "E-CONFLICT simplify: constrained takes no max_error | use constraints: {hausdorff: 0.1%} to limit "
-          "the error\n"
-          "E-CONFLICT simplify: constrained takes no lods | use another method, or one simplify stage for "
-          "each level\n"
-          "E-CONFLICT simplify: lods has its own targets | leave out ratio, faces, vertices and max_error");
+          "E-CONFLICT simplify: the method constrained has no max_error | use constraints: {hausdorff: 0.1%} "
+          "to limit the error\nE-CONFLICT simplify: the method constrained has no lods | use another method, "
+          "or one simplify stage for each level\nE-CONFLICT simplify: lods has its own targets | leave out "
+          "ratio, faces, vertices and max_error");
     CHECK(problems("1.5").find("E-RANGE") != std::string::npos);
 }
 
@@ -562,7 +561,8 @@ TEST_CASE("simplify: what the limit on the error and the sharing do not go with 
     CHECK(refuses("{ratio: 10%, max_error: 1%, max_quadric_error: 1%}",
                   "max_error replaces max_quadric_error"));
     CHECK(refuses("{ratio: 10%, method: cluster, max_quadric_error: 1%}", "needs the method quadric"));
-    CHECK(refuses("{ratio: 10%, method: cluster, share: error}", "no cost that parts could share by"));
+    CHECK(
+        refuses("{ratio: 10%, method: cluster, share: error}", "are not comparable, so parts cannot share"));
     CHECK(refuses("{ratio: 10%, max_quadric_error: -1}", "E-RANGE"));
     CHECK(refuses("{ratio: 10%, max_quadric_error: none}", "a length"));
     CHECK(problems("{ratio: 10%, max_error: 1%, max_quadric_error: off}") == "");

@@ -17,8 +17,8 @@ using test::scene_of;
 TEST_CASE("split: smooth methods refuse non-manifold parts by name", "[stages]") {
     CHECK(test::failure([] { run_stage("split", Value::scalar("loop"), scene_of(shapes::fan3())); }) ==
           "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has "
-          "3 faces (part 'part') | clean repairs non-manifold edges and vertices; midpoint splits them as "
-          "they are");
+          "3 faces (part 'part') | use clean to repair non-manifold edges and vertices, or the method "
+          "midpoint, which splits any mesh");
 }
 
 TEST_CASE("split: a mesh in a single point has no edges longer than a percentage of it", "[stages]") {
@@ -70,8 +70,9 @@ TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
     CHECK(run_stage("split", options({{"max_edge", "9"}}), scene_of(shapes::cube())).warnings().empty());
     for (const char* target : {"max_edge", "min_angle", "max_faces"})
         CHECK(problems_of("split", options({{"cut", "widest-angle"}, {"method", "bisect"}, {target, "9"}})) ==
-              std::string("E-CONFLICT split: 'cut: widest-angle' does not go with the target '") + target +
-                  "', which its cuts may never reach | leave out cut, or give passes and no target");
+              std::string("E-CONFLICT split: 'cut: widest-angle' cannot be combined with the target '") +
+                  target +
+                  "', because its cuts may never reach it | leave out cut, or give passes and no target");
 }
 
 TEST_CASE("split: narrow faces that are left, and faces that a method leaves, are warned of", "[stages]") {
@@ -82,7 +83,7 @@ TEST_CASE("split: narrow faces that are left, and faces that a method leaves, ar
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
     CHECK(r.record.result["parts"][0]["stopped_by"] == "narrow");
     CHECK(r.record.warnings.at(0).message == "part 'part' stays unchanged, with 1 face with an angle below "
-                                             "20 degrees: a pass would make more of them");
+                                             "20 degrees: the next pass would make more of them");
     CHECK(r.record.result["parts"][0]["narrow"] == 1);
     CHECK(r.record.result["parts"][0]["narrow_before"] == 1);
     CHECK(r.mesh().face_count() == 1);

@@ -42,10 +42,9 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
           "usage [E-TILE] tile: 'size' is an empty list | give one size, or one for each axis");
     CHECK(refusal_of("tile", "{size: 1, origin: [1]}", scene_of(shapes::grid(4, 3))) ==
           "usage [E-TILE] tile: 1 origins for 2 axes | give one for each axis");
-    CHECK(
-        refusal_of("tile", "{size: 0.1, origin: [1e15, 0]}", scene_of(shapes::grid(4, 3))) ==
-        "limit [E-TILE] a part lies 1e+16 tiles from the grid's origin along one axis, and at most 1e+09 are "
-        "counted | choose a nearer origin, or a larger size");
+    CHECK(refusal_of("tile", "{size: 0.1, origin: [1e15, 0]}", scene_of(shapes::grid(4, 3))) ==
+          "limit [E-TILE] a part lies 1e+16 tiles from the grid's origin along one axis, but at most 1e+09 "
+          "are possible | choose a nearer origin, or a larger size");
     Mesh point = shapes::cube();
     for (Vec3& p : point.positions) p = {1, 2, 3};
     CHECK(test::failure([&] {

@@ -136,7 +136,7 @@ TEST_CASE("Draco's points are refused where their tree and their header disagree
     for (const auto at : {in_header, in_tree}) {
         std::string bad = good;
         bad[at + 1] = 1;
-        CHECK(read(bad).find("points, and its header") != std::string::npos);
+        CHECK(read(bad).find("points, but its header") != std::string::npos);
     }
     for (std::size_t at = 5; at < good.size(); ++at) // whatever is wrong: an error, or other points
         for (const char value : {'\0', '\x7f', '\xff'}) {

@@ -290,7 +290,7 @@ std::vector<std::uint8_t> LeftCells::take_up(const std::vector<std::uint8_t>& am
     }
     const std::string where = kept_->path().string();
     if (others > 0)
-        kept_->tell(fmt::format("{} of other inputs or options removed from '{}'",
+        kept_->tell(fmt::format("{} from other inputs or options removed from '{}'",
                                 counted(others, "simplified cell"), where));
     if (damaged > 0)
         kept_->tell(fmt::format("{} in '{}' {} damaged and made again", counted(damaged, "simplified cell"),

@@ -149,7 +149,7 @@ class PartitionKeeper {
         const Json expected = origin();
         for (const auto& [key, what] : told)
             if (!manifest.contains(key) || manifest[key] != expected[key])
-                return fmt::format("cells in '{}' are of {}", folder_.path().string(), what);
+                return fmt::format("cells in '{}' belong to {}", folder_.path().string(), what);
         return {};
     }
 

@@ -106,7 +106,7 @@ class CollarMaker {
     std::size_t after(std::size_t e) const {
         const auto next = starting_.find(frame_[e].arc_to);
         if (next == starting_.end())
-            throw Error(ErrorKind::bug, "E-BUG", "cells: the border of what is cleaned does not go around");
+            throw Error(ErrorKind::bug, "E-BUG", "cells: the border of the cleaned area is not closed");
         return next->second;
     }
 

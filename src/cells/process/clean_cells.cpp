@@ -43,7 +43,7 @@ class PlaceSet {
             throw out_of_memory(
                 fmt::format("clean: more than {} places have defects, but --memory allows only {} for them",
                             grouped(names_.size()), sized(most_)),
-                "give more memory; load with weld: exact welds without it");
+                "give more memory, or use load with weld: exact, which welds without it");
     }
     bool has(const Vec3& p) const { return names_.contains(name_of_place(p)); }
     bool empty() const { return names_.empty(); }
@@ -253,11 +253,10 @@ class CellCleaning {
 
     void require_room(std::uint64_t faces) const {
         if (faces * bytes_of_face > means_.memory / 2)
-            throw out_of_memory(fmt::format("clean: {} triangles are at places with defects and need {} at "
-                                            "once, but --memory allows {}",
-                                            grouped(faces), sized(2 * faces * bytes_of_face),
-                                            sized(means_.memory)),
-                                "give more memory; load with weld: exact welds without it");
+            throw out_of_memory(
+                fmt::format("clean: {} triangles near defects need {} at once, but --memory allows {}",
+                            grouped(faces), sized(2 * faces * bytes_of_face), sized(means_.memory)),
+                "give more memory, or use load with weld: exact, which welds without it");
     }
 
     /// Loads the faces at unsound positions, and their neighbours.
@@ -408,7 +407,7 @@ std::optional<std::string> why_not_in_cells(const CleanSettings& s) {
             return fmt::format("{}: near moves vertices and changes the faces around them, which needs the "
                                "whole mesh; exact does not",
                                name);
-    if (s.holes) return "holes: whether a patch meets other faces needs the whole mesh";
+    if (s.holes) return "holes: a patch may meet any other face, so filling needs the whole mesh";
     if (s.self_intersections != Untangle::off)
         return "self_intersections needs the whole mesh, because any two faces can intersect";
     for (const auto& [given, name] :

@@ -135,7 +135,7 @@ class ReplacedSource final : public FaceSource {
     }
 
   private:
-    /// Tells whether faces are removed. Faces must be queried in order.
+    /// Finds out whether faces are removed. Faces must be queried in order.
     class Gone {
       public:
         explicit Gone(const std::vector<std::uint32_t>& numbers)

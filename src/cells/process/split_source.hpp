@@ -8,8 +8,8 @@ namespace facetmill::cells {
 
 /// The cut, which is the same for all faces.
 struct FaceCut {
-    /// Pieces per edge, as in grid_split. 0: SplitMethod::midpoint, whose pieces have another order than a
-    /// grid of 2.
+    /// Pieces per edge, as in grid_split. 0: SplitMethod::midpoint, whose pieces have a different order than
+    /// a grid of 2.
     int grid = 0;
     static constexpr int most = 16;
     std::size_t pieces() const {

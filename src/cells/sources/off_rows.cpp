@@ -46,12 +46,13 @@ class OffReader final : public RowReader {
     static void check(const io::Text& text, std::int64_t vertices, std::int64_t faces, std::uint64_t left) {
         constexpr std::uint64_t per_vertex = 6, per_face = 2;
         if (vertices < 0 || faces < 0)
-            text.fail(fmt::format("expected counts, found {} vertices and {} faces", vertices, faces));
+            text.fail(
+                fmt::format("expected counts of 0 or more, found {} vertices and {} faces", vertices, faces));
         if (static_cast<std::uint64_t>(vertices) > (left + 1) / per_vertex ||
             static_cast<std::uint64_t>(faces) > (left + 1) / per_face)
-            text.fail(
-                fmt::format("{} vertices and {} faces are promised, which the {} bytes left cannot hold",
-                            vertices, faces, left));
+            text.fail(fmt::format(
+                "the header gives {} vertices and {} faces, but the remaining {} bytes cannot hold them",
+                vertices, faces, left));
     }
 
     /// Skips a colour of at most four numbers. The last `more` numbers of the line are not part of it.

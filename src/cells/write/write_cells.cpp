@@ -250,8 +250,8 @@ void write_glb(const Partition& partition, const WritePlace& place, const io::Wr
 
 std::optional<std::string> why_not_written(const io::Codec& codec, const io::WriteSettings& s) {
     if (codec.name != "ply" && codec.name != "stl" && codec.name != "glb")
-        return fmt::format("{} is not written cell by cell, only binary PLY, STL and GLB are", codec.name);
-    if (s.ascii) return "text is not written cell by cell";
+        return fmt::format("{} cannot be written from cells, only binary PLY, STL and GLB can", codec.name);
+    if (s.ascii) return "text cannot be written from cells";
     if (s.draco.on || s.quantize.on || s.meshopt.on) return "compression needs the whole mesh";
     if (s.lods || s.mesh_manifold || s.order != io::TriangleOrder::automatic)
         return "lods, mesh_manifold and order need the whole mesh";

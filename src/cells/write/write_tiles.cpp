@@ -134,9 +134,10 @@ class TileMaker {
         if (needed <= means_.memory) return;
         const Station& s = hierarchy_nodes_[station];
         throw out_of_memory(
-            fmt::format("a tile for {} triangles is made of {} at once, which needs {}; --memory gives {}",
-                        grouped(s.faces), grouped(s.is_leaf() ? s.faces : left_.faces_below(station)),
-                        sized(needed), sized(means_.memory)),
+            fmt::format(
+                "a tile for {} triangles joins {} triangles at once and needs {}, but --memory allows {}",
+                grouped(s.faces), grouped(s.is_leaf() ? s.faces : left_.faces_below(station)), sized(needed),
+                sized(means_.memory)),
             "give more memory, or simplify before write");
     }
 
@@ -251,9 +252,10 @@ WrittenTiles write_tiles(const Partition& partition, const Transform& transform,
                          const std::function<void(const io::OutputFile&)>& put) {
     const std::uint64_t needed = memory_for_tiles(partition.faces(), settings.tiles.most_faces());
     if (needed > means.memory)
-        throw out_of_memory(fmt::format("tiles of {} triangles need at least {} in cells, --memory gives {}",
-                                        grouped(settings.tiles.faces), sized(needed), sized(means.memory)),
-                            "give more memory, or set tiles.faces to fewer");
+        throw out_of_memory(
+            fmt::format("tiles of {} triangles need at least {} in cells, but --memory allows {}",
+                        grouped(settings.tiles.faces), sized(needed), sized(means.memory)),
+            "give more memory, or a smaller tiles.faces");
     return TileMaker(partition, transform, settings, means, put).run();
 }
 

@@ -26,8 +26,8 @@ struct WrittenTiles {
 /// `tile` faces.
 [[nodiscard]] std::uint64_t memory_for_tiles(std::uint64_t faces, std::uint64_t tile);
 
-/// Passes the tile files to put as they are made, one at a time, in any order. transform: from cell space to
-/// a z-up world in metres. The tiles have no materials, seams or textures. The tree depends only on the mesh
+/// Passes each tile file to put once it is made, one at a time, in any order. transform: from cell space to a
+/// z-up world in metres. The tiles have no materials, seams or textures. The tree depends only on the mesh
 /// and the settings. Throws a limit error (E-MEMORY) if joined tiles exceed memory, a stage error (E-RANGE),
 /// an output error (E-SCRATCH, E-SPACE), and the errors of put.
 [[nodiscard]] WrittenTiles write_tiles(const Partition& partition, const Transform& transform,

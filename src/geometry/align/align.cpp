@@ -98,7 +98,7 @@ class Icp {
     }
 
   private:
-    /// The samples that count, moved, with their nearest points and the normals there.
+    /// The used samples after the move, with their nearest points and the normals at these points.
     struct Pairs {
         std::vector<Vec3> kept_sources, moved, nearest, normals;
         double rms = 0, whole = 0, farthest = 0;

@@ -22,12 +22,12 @@ struct AlignResult {
     bool settled = false;
 };
 
-/// Finds the rotation and translation that brings the samples of `moving` nearest to `target`. The starts are
-/// the surface where it is and, with from_axes, the 24 rotations that put its principal axes on those of the
-/// target in any order and with any signs. So symmetric shapes find the best of their poses. Each start gets
-/// a few steps with few samples. Starts that differ by less than a thousandth of the diagonal are told apart
-/// by all samples. The best goes on with all, until a step moves them by less than a
-/// hundred-millionth of the diagonal.
+/// Finds the rotation and translation that brings the samples of `moving` nearest to `target`. The first
+/// start is the current position. With from_axes, further starts are the 24 rotations that map the principal
+/// axes to the axes of the target, in any order and with any signs. So symmetric shapes find the best of
+/// their poses. Each start gets a few steps with few samples. If starts differ by less than a thousandth of
+/// the diagonal, all samples decide between them. The best goes on with all, until a step moves them by less
+/// than a hundred-millionth of the diagonal.
 ///
 /// A step is the iterated closest point of Y. Chen and G. Medioni, "Object modelling by registration of
 /// multiple range images" (1992): it minimises distances to the planes of the nearest faces. The farthest

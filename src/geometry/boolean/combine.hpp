@@ -48,11 +48,11 @@ struct CombineResult {
 /// that touch at an edge or vertex are separated there. It does not intersect itself, except that faces may
 /// touch at equal positions. It is empty if no point satisfies the operation.
 ///
-/// Uncut faces stay polygons, in order of the meshes; pieces are triangles and come last. Cut faces keep
-/// only vertices that they had or that other faces need (geometry/boolean/redrawn.hpp). Where faces of
-/// several meshes coincide, the first mesh's face stays. When the second operand is subtracted, its faces
-/// are reversed with their normals. Attributes that only some meshes have are added to the others, as in
-/// `append`. New corners interpolate within the face that they are cut from.
+/// Uncut faces stay polygons, in order of the meshes; pieces are triangles and come last. Cut faces keep only
+/// vertices that they had or that other faces need (geometry/boolean/redrawn.hpp). If faces of several meshes
+/// coincide, the face of the first mesh stays. When the second operand is subtracted, its faces are reversed
+/// with their normals. Attributes that only some meshes have are added to the others, as in `append`. New
+/// corners interpolate within the face that they are cut from.
 ///
 /// Never throws for valid meshes. The result does not depend on the number of threads.
 [[nodiscard]] CombineResult combine(std::vector<Mesh> meshes, const CombineSettings& settings);

@@ -68,7 +68,7 @@ class Assembly {
     }
 
   private:
-    /// Numbers the vertices and wedges to copy: those in use, and those that were already unused.
+    /// Numbers the vertices and wedges to copy: the used ones, and the ones that were already unused.
     void number(const std::vector<Index>& kept) {
         enum : std::uint8_t { unused, used, lost };
         std::vector<std::uint8_t> vertices(mesh_.vertex_count(), unused),

@@ -11,14 +11,14 @@ namespace facetmill {
 /// Triangles, segments and points, in any state.
 struct WrapInput {
     std::vector<Vec3> positions;
-    std::vector<std::array<Index, 3>> triangles; ///< those that are exactly collinear are left out
+    std::vector<std::array<Index, 3>> triangles; ///< without exactly collinear triangles
     std::vector<std::array<Index, 2>> segments;
     std::vector<Index> points;
 };
 
 struct WrapSize {
     double alpha = 0, offset = 0;   ///< above 0
-    std::size_t max_vertices = 0;   ///< of the tetrahedra, more than those of the wrap
+    std::size_t max_vertices = 0;   ///< of the tetrahedra; the wrap has fewer vertices
     std::size_t about_vertices = 0; ///< expected, for the progress
 };
 

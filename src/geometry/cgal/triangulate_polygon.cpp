@@ -248,7 +248,7 @@ class Filler {
     std::vector<std::optional<Constraint>>
         constraints_; ///< [edges] constraints; none for an edge between points at the same position
     std::map<std::pair<Index, Index>, int>
-        along_; ///< the contours' count for an edge from the lower to the higher vertex number
+        along_; ///< counts of contours by edge (lower vertex, higher vertex)
 };
 
 } // namespace

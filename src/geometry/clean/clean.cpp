@@ -41,8 +41,8 @@ SelfIntersections affordable_crossings(Work& work) {
     if (found.too_many)
         tell_of_crossings(
             work,
-            fmt::format("not searched for, because the bounding boxes of more than {} pairs of its {} "
-                        "faces meet; clean smaller parts, or thinner walls and tubes",
+            fmt::format("not searched for, because the bounding boxes of more than {} pairs of its {} faces "
+                        "meet; cut the part into smaller parts first, or make walls and tubes thinner",
                         found.box_pairs - 1, work.mesh.face_count()),
             corner_mean(work.mesh, 0));
     return found;
@@ -58,15 +58,15 @@ bool untangle_once(Work& work, const CleanSettings& s) {
     if (found.count > found.pairs.size()) {
         tell_of_crossings(
             work,
-            fmt::format("{} pairs of faces intersect, and at most {} are processed", found.count, max_pairs),
+            fmt::format("{} pairs of faces intersect, but at most {} are processed", found.count, max_pairs),
             corner_mean(work.mesh, found.pairs[0].first));
         return false;
     }
     if (!work.may_process(found.count)) {
         tell_of_crossings(
             work,
-            fmt::format("{} pairs of its {} faces intersect, of which at most {} could be tried in "
-                        "reasonable time; clean smaller parts, or thinner walls and tubes",
+            fmt::format("{} pairs of its {} faces intersect, but at most {} can be tried in reasonable time; "
+                        "cut the part into smaller parts first, or make walls and tubes thinner",
                         found.count, work.mesh.face_count(), work.budget.vain_pairs),
             corner_mean(work.mesh, found.pairs[0].first));
         return false;
@@ -151,8 +151,8 @@ bool rounding_moves(const Mesh& mesh) {
                        [](const Vec3& p) { return is_finite(p) && as_float32(p) != p; });
 }
 
-/// Whether faces intersect now that did not before. If some intersected before, those stay and the new ones
-/// are reported, because they cannot be told apart.
+/// Whether faces intersect now that did not before. If some intersected before, all stay, because old and new
+/// intersections cannot be distinguished; the new ones are reported.
 bool is_tangled_by_rounding(Work& work, const Mesh& before) {
     const SelfIntersections now = affordable_crossings(work);
     if (now.too_many || now.count == 0) return false;
@@ -179,7 +179,7 @@ std::size_t CleanCounts::total() const {
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     Work work;
-    std::optional<Mesh> exact; // before rounding, if nothing else would notice what it does
+    std::optional<Mesh> exact; // the mesh before rounding, to find intersections that rounding causes
     if (settings.single && settings.self_intersections == Untangle::off && rounding_moves(mesh)) exact = mesh;
     work.mesh = std::move(mesh);
     work.budget = settings.budget;

@@ -87,8 +87,8 @@ class Untangler {
             if (k.given_up)
                 work_.not_done.push_back(
                     {"self_intersections",
-                     fmt::format("the hole that the faces of {} intersecting pairs would leave cannot be "
-                                 "filled without new intersections, or is half of the component",
+                     fmt::format("removing the faces of {} intersecting pairs would leave a hole that cannot "
+                                 "be filled without new intersections, or that is half of the component",
                                  k.pairs),
                      k.at});
         return changed;
@@ -105,9 +105,9 @@ class Untangler {
         }
         work_.not_done.push_back(
             {"self_intersections",
-             fmt::format("{} intersecting pairs are left after {} attempts, and more would not end in "
-                         "reasonable time",
-                         pairs, attempts_),
+             fmt::format(
+                 "{} intersecting pairs are left after {} attempts, and more attempts would take too long",
+                 pairs, attempts_),
              first->at});
     }
 

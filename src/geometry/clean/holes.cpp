@@ -183,7 +183,7 @@ HolePatch planar(const std::vector<Vec3>& ring, std::string& why) {
     double rounded = 0;
     for (const Vec3& p : ring) rounded = std::max(rounded, rounding(p));
     if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounded) {
-        why = fmt::format("its boundary loop is not planar, by {:.6g}", cut.kinds.deviation);
+        why = fmt::format("its boundary loop is not planar: it deviates by {:.6g}", cut.kinds.deviation);
         return patch;
     }
     if (cut.fans > 0) {

@@ -265,7 +265,7 @@ class Separation {
         work_.not_done.push_back(
             {"apart",
              fmt::format(
-                 "at {} vertices were not moved apart, because this would take too long; STL will join them",
+                 "vertices at {} were not moved apart, because this would take too long; STL will join them",
                  counted(places, "place")),
              first});
     }
@@ -273,9 +273,9 @@ class Separation {
     void tell(const Vec3& at) {
         work_.not_done.push_back(
             {"apart",
-             fmt::format("vertices at the same position cannot be moved apart by up to {} steps of float32, "
-                         "and an eighth of their shortest edges, without a face that turns over or meets "
-                         "another; STL will join them",
+             fmt::format("vertices at the same position cannot be moved apart: each move of at most {} steps "
+                         "of float32 and an eighth of their shortest edges would invert a face or make it "
+                         "meet another; STL will join them",
                          most_float_steps),
              at});
     }

@@ -28,8 +28,8 @@ struct CutSection {
         bool kept;
     };
     std::vector<Edge> edges;
-    /// Vertices in the plane, of faces that are not; each with one wedge, ascending. Those inside the cap
-    /// become its corners. Else faces would end in the middle of its triangles.
+    /// Vertices in the plane whose faces are not in the plane, each with one wedge, ascending. Those inside
+    /// the cap become its corners. Otherwise faces would end in the middle of the cap's triangles.
     std::vector<Point> points;
 
     bool has_contours() const {

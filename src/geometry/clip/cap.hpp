@@ -5,8 +5,8 @@
 
 namespace facetmill {
 
-/// Points that a cap adds to the cut, numbered after those of PlaneCut. Contours cross, or pass through each
-/// other's points, at them.
+/// Points that a cap adds to the cut, numbered after the points of PlaneCut. At these points, contours cross
+/// or pass through each other's points.
 struct ExtraPoints {
     std::vector<Vec3> points;        ///< [extra vertices]
     Provenance vertices, wedges;     ///< mixes only; wedges stays empty without seams
@@ -28,9 +28,9 @@ struct Cap {
     std::vector<OpenEnd> open;
 };
 
-/// Makes the cap of one side. pieces: the pieces of this side. The cap's points on their edges are inserted.
-/// Whole faces that get such points become pieces (class bit replaced in cut). If no contour is open, the
-/// kept faces, pieces and cap together have no boundary in the plane.
+/// Makes the cap of one side. pieces: the pieces of this side, into whose edges the cap's points are
+/// inserted. Whole faces that get such points become pieces (class bit replaced in cut). If no contour is
+/// open, the kept faces, pieces and cap together have no boundary in the plane.
 [[nodiscard]] Cap make_cap(PlaneCut& cut, int side, Pieces& pieces);
 
 } // namespace facetmill

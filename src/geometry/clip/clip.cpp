@@ -303,7 +303,7 @@ class Clipper {
     std::vector<Vec3> made_;              ///< by the caps of a plane
 };
 
-/// Points added on edges count as on the planes of both ends.
+/// Points added on edges count as on the planes that contain both ends.
 void remember_middles(CutMemory& memory, const DividedEdges& divided, const Mesh& before) {
     std::vector<Vec3> ends;
     ends.reserve(2 * divided.edges.size());
@@ -319,9 +319,9 @@ void remember_middles(CutMemory& memory, const DividedEdges& divided, const Mesh
         if (!on[entry].empty()) memory.add_to(entry, std::move(on[entry]));
 }
 
-/// A cap may touch faces that end in the plane. The solids on both sides of such an edge or vertex become
-/// separate there, as in combine. This waits until all planes have cut, because clip_body copies the caps of
-/// the front to the back.
+/// A cap may touch faces that end in the plane. At such an edge or vertex, the solids on both sides are
+/// separated, as in combine. The separation waits until all planes have cut, because clip_body copies the
+/// caps of the front to the back.
 void separate_solids(ClipResult& result) {
     for (Mesh* mesh : {&result.front, &result.back}) {
         if (connectivity_of(*mesh).is_manifold()) continue;

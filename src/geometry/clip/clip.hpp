@@ -30,7 +30,7 @@ struct ClipSettings {
     /// Numbers cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group. Both continue
     /// after the largest existing number.
     bool cap_numbers = false;
-    /// Take positions as on the plane if they may be off it by their rounding alone (CoordinateErrors in
+    /// Positions count as on the plane if rounding alone may have moved them off it (CoordinateErrors in
     /// geometry/cut/cut.hpp).
     bool snap = false;
     CutMemory memory = {}; ///< points known to be on planes
@@ -48,7 +48,7 @@ struct ClipResult {
     AttributeChanges changes;
     std::size_t cut_faces = 0;               ///< faces that a plane passed through
     std::size_t on_plane = 0;                ///< vertices that count as on a plane
-    std::size_t snapped = 0, remembered = 0; ///< among them, by snap and by memory
+    std::size_t snapped = 0, remembered = 0; ///< vertices on the plane because of snap, and because of memory
     double snapped_by = 0;                   ///< the largest distance of a snapped vertex from its plane
     std::size_t cap_faces = 0;
     bool changed = false;          ///< false: no plane met the mesh and all of it was kept
@@ -57,28 +57,27 @@ struct ClipResult {
 };
 
 /// Every vertex is classified once per plane, by the exact sign of side(plane, p), so neighbours always
-/// agree. Points built on a plane count as on it when it recurs (see CutMemory), so that repeated and
+/// agree. Points built on a plane count as on it when the plane recurs (see CutMemory), so that repeated and
 /// adjoining cuts meet without slivers. A face with vertices strictly on both sides is cut directly, whether
-/// triangle, quad or n-gon (convex or not). Each cut edge gets one new vertex, shared by all faces at it,
-/// and one new wedge per pair of wedges, computed with the edge's ends in index order. For an axis-aligned
-/// plane its coordinate is exactly the plane's. A face that only touches the plane stays or goes whole. A
+/// triangle, quad or n-gon (convex or not). Each cut edge gets one new vertex, shared by all faces at it, and
+/// one new wedge per pair of wedges, computed with the edge's ends in index order. For an axis-aligned plane,
+/// the vertex's coordinate is exactly the plane's. A face that only touches the plane stays or goes whole. A
 /// face in the plane of a closed mesh (and with Keep::both) stays on the side that its normal points away
-/// from; for an open mesh settings.coplanar decides.
-/// Caps: for a closed mesh, the edges in the plane at which the directions of the kept faces do not cancel
-/// are closed contours. They are projected along the normal's dominant axis and filled by a constrained
-/// Delaunay triangulation that emits each triangle as often as the contours turn around it. So islands and
-/// holes nest, and contours that cross still close. Vertices and edges of faces that only touch the plane
-/// become corners and edges of the cap, so faces end in none of its triangles. Points where contours cross
-/// are also inserted into the wall faces. Therefore every closed mesh stays closed. A capped manifold mesh
-/// stays manifold, unless it intersects itself in the plane: where solids touch there, each gets its own
-/// vertices. Open contours are reported and left open.
-/// Attributes: kept elements keep their attributes; new vertices and wedges are interpolated; pieces copy
-/// their face's. Cap faces have zeros in face attributes other than "primitive". When the mesh has NORMAL or
-/// TEXCOORD_0, caps get their own wedges with the plane's normal and planar coordinates (the cap's larger
-/// extent is 1), the rest interpolated as on the walls. Vertices that no kept face uses are removed, unless
-/// they are isolated on the kept side. Order: kept faces and pieces in the order of their faces, followed by
-/// the cap. Throws usage (E-PLANE) for an invalid plane, and for Keep::both with several planes without
-/// `convex`. After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
+/// from; for an open mesh settings.coplanar decides. Caps: for a closed mesh, the edges in the plane at which
+/// the directions of the kept faces do not cancel are closed contours. They are projected along the normal's
+/// dominant axis and filled by a constrained Delaunay triangulation that emits each triangle as often as the
+/// contours turn around it. So islands and holes nest, and contours that cross still close. Vertices and
+/// edges of faces that only touch the plane become corners and edges of the cap, so faces end in none of its
+/// triangles. Points where contours cross are also inserted into the wall faces. Therefore every closed mesh
+/// stays closed. A capped manifold mesh stays manifold, unless it intersects itself in the plane: if solids
+/// touch in the plane, each gets its own vertices. Open contours are reported and left open. Attributes: kept
+/// elements keep their attributes; new vertices and wedges are interpolated; pieces copy their face's. Cap
+/// faces have zeros in face attributes other than "primitive". When the mesh has NORMAL or TEXCOORD_0, caps
+/// get their own wedges with the plane's normal and planar coordinates (the cap's larger extent is 1), the
+/// rest interpolated as on the walls. Vertices that no kept face uses are removed, unless they are isolated
+/// on the kept side. Order: kept faces and pieces in the order of their faces, followed by the cap. Throws
+/// usage (E-PLANE) for an invalid plane, and for Keep::both with several planes without `convex`. After P.
+/// Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
 [[nodiscard]] ClipResult clip(Mesh mesh, const ClipSettings& settings);
 
 } // namespace facetmill

@@ -16,7 +16,7 @@ const std::vector<std::uint32_t>& numbers_of(const Mesh& mesh, Domain domain, st
     return std::get<std::vector<std::uint32_t>>(mesh.find(attribute, domain)->data);
 }
 
-/// Maps numbers to elements. Of elements with equal numbers, the last is used.
+/// Maps numbers to elements. If elements have equal numbers, the last one is used.
 std::vector<Index> inverted(const std::vector<std::uint32_t>& numbers) {
     std::vector<Index> element;
     for (Index i = 0; i < numbers.size(); ++i) {

@@ -47,8 +47,8 @@ class CropView {
     /// Projects the corners of a face.
     void gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const;
     /// The location of a point in the middle of a face. In a concave face, the point is in the largest
-    /// triangle. An edge-on face along the outline bounds the side that it faces away from. convex: the face
-    /// is known to be convex within rounding.
+    /// triangle. An edge-on face along the outline belongs to the side that it faces away from. convex: the
+    /// face is known to be convex within rounding.
     polygon::PointLocation middle(const Mesh& mesh, Index f, bool convex = false) const;
     /// Calls visit(segment, meeting) for the segments near a face until it returns false.
     template <class Visit>

@@ -33,12 +33,12 @@ struct WalledCrop {
 };
 
 /// Closes the kept faces of a mesh that was cut along the footprint. Each edge of their boundary is assigned
-/// to the nearest segment. Where the boundary changes segments, upright edges at the corner of the outline
-/// complete both, so that the boundary on every segment is closed. Each wall is filled like the caps of clip
-/// (fill_disjoint), so an area covered twice gets two walls. The result is closed by edge counts, not only
-/// by positions. Points that the filling needs on edges are inserted into the kept faces too, so a triangle
-/// may become several. Reversed edges give the same triangles in opposite orientation, except triangles
-/// without area between points at the same position.
+/// to the nearest segment. If the boundary passes from one segment to the next, upright edges at the corner
+/// of the outline close the boundary on both segments. Each wall is filled like the caps of clip
+/// (fill_disjoint), so an area covered twice gets two walls. The result is closed by edge counts, not only by
+/// positions. Points that the filling needs on edges are inserted into the kept faces too, so a triangle may
+/// become several. Reversed edges give the same triangles in opposite orientation, except triangles without
+/// area between points at the same position.
 ///
 /// Walls get attributes like caps of clip. In an open mesh, only edges on the outline count; contours that
 /// do not close are left open and reported. Throws UnclosedWalls if a closed mesh's walls cannot be

@@ -157,14 +157,13 @@ class Separation {
         if (!more) return {};
         if (how.step > 1) note(marked, levels_, coarse_);
         if (!lower(marked, levels_, how.step)) // if nothing moves, all pairs existed before
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move intersect");
         return marked;
     }
 
     /// If too many pairs would have to be examined, halves the allowed stretch repeatedly until some
     /// positions are lowered. If the round limit is reached, or all faces keep their shape, stops all moves
-    /// of these faces. Returns [positions] 1 if lowered. again: set to the faces that may still meet,
-    /// lowered or not.
+    /// of these faces. Returns [positions] 1 if lowered. again: receives the faces that must be tested again.
     std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how,
                                         FacesOfSheets& again) {
         for (std::size_t s = 0; s < tests_.size(); ++s)
@@ -183,7 +182,7 @@ class Separation {
             if (trouble[s].too_many) tests_[s].mark(tests_[s].touched(), how.rings, marked);
         note(marked, levels_, coarse_);
         if (!lower(marked, levels_, last_level))
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move are too many to look at");
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: too many faces do not move");
         return marked;
     }
 

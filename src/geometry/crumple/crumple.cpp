@@ -22,16 +22,16 @@ using Settings = CrumpleSettings;
 void check(const Settings& s) {
     if (!(s.amplitude >= 0 && std::isfinite(s.amplitude)))
         throw Error(ErrorKind::usage, "E-RANGE",
-                    "crumple: amplitude is at least 0, not " + to_string(s.amplitude));
+                    "crumple: amplitude must be at least 0, not " + to_string(s.amplitude));
     if (!(s.truncate >= 0.1))
         throw Error(ErrorKind::usage, "E-RANGE",
-                    "crumple: truncate is at least 0.1, not " + to_string(s.truncate));
+                    "crumple: truncate must be at least 0.1, not " + to_string(s.truncate));
     if (!(s.frequency >= 0 && std::isfinite(s.frequency)))
         throw Error(ErrorKind::usage, "E-RANGE",
-                    "crumple: frequency is at least 0, not " + to_string(s.frequency));
+                    "crumple: frequency must be at least 0, not " + to_string(s.frequency));
     if (s.octaves < 1 || s.octaves > 32)
         throw Error(ErrorKind::usage, "E-RANGE",
-                    "crumple: octaves is 1 to 32, not " + std::to_string(s.octaves));
+                    "crumple: octaves must be 1 to 32, not " + std::to_string(s.octaves));
 }
 
 /// The inverse of the linear part of t, by its adjugate.

@@ -185,8 +185,8 @@ void TestSheet::remember_exempt() {
     if (found.count > found.pairs.size())
         throw Error(
             ErrorKind::limit, "E-LIMIT",
-            fmt::format("crumple: {} pairs of faces intersect already, and at most {} can be "
-                        "distinguished from new ones",
+            fmt::format("crumple: {} pairs of faces already intersect, but only {} can be distinguished from "
+                        "new ones",
                         found.count, max_pairs_),
             "clean removes duplicate faces; self_intersections: allow does not search for intersections");
     exempt_ = found.pairs;

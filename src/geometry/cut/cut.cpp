@@ -283,7 +283,7 @@ class AxisFloats {
     /// All numbers are multiples of 2^multiple.
     int multiple() const { return multiple_; }
     /// The chance that rounded numbers are such multiples is 2^-bits: each float is a multiple of twice its
-    /// ulp by a chance of a half.
+    /// ulp with a chance of one half.
     int bits(int multiple) const {
         int sum = 0;
         for (const double x : some_) sum += std::max(0, multiple - exponent_of_ulp(x));
@@ -313,7 +313,7 @@ bool are_not_rounded(const std::array<AxisFloats, 3>& axes, std::size_t axis) {
         if (axes[i].are_many_multiples(ulp)) return true;
         if (axes[i].empty()) continue;
         const int bits = axes[i].multiple() >= ulp ? axes[i].bits(ulp) : 0;
-        all = all && bits >= 4; // an axis whose floats are hardly finer shows nothing
+        all = all && bits >= 4; // an axis proves nothing if its floats are hardly finer
         others += bits;
     }
     return all && own + others >= enough;

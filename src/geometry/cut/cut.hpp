@@ -69,7 +69,7 @@ struct PlaneCut {
 /// How far positions may be from where they should be, because their coordinates were rounded one by one.
 struct CoordinateErrors {
     Vec3 single; ///< by axis: the largest error of 32-bit floats, half their step; 0 if not rounded
-    Vec3 twice;  ///< by axis: the same of doubles that are computed in a few steps, four steps
+    Vec3 twice;  ///< by axis: the error of doubles after a few operations, four units in the last place
 
     /// The sums of the errors along a direction, times its length.
     double of_single(const Vec3& along) const { return sum(single, along); }
@@ -83,10 +83,10 @@ struct CoordinateErrors {
 
 /// The rounding of a mesh's positions, by the largest coordinate of each axis. `single` is 0 if less than
 /// half of the positions are 32-bit floats, and for an axis whose numbers show that they were not rounded.
-/// They do if they are multiples of more than the step of floats, or if the other axes have multiples of the
-/// step where their floats are finer. The chance of this in rounded numbers must be below one in a thousand.
-/// Examples are a terrain and a building of whole metres in UTM, whose floats are half a metre apart, or a
-/// metre far in the south.
+/// Multiples of more than the step of floats show this, and so do multiples of that step on the other axes,
+/// if their floats are finer. The chance of such multiples among rounded numbers must be below one in a
+/// thousand. Examples are a terrain and a building of whole metres in UTM, whose floats are half a metre
+/// apart, or a metre far in the south.
 [[nodiscard]] CoordinateErrors rounding_of(const Mesh& mesh);
 
 /// The points that count as on a plane in addition to points exactly on it.
@@ -105,7 +105,8 @@ bool is_float32(const Vec3& p);
 class CrossingPoints {
   public:
     explicit CrossingPoints(const Plane& plane);
-    /// The position of the plane on an edge whose ends have these side values of different signs; 0 at a.
+    /// The parameter at which the plane crosses an edge, from the side values of its ends, which have
+    /// different signs; 0 at a.
     static double parameter(double side_of_a, double side_of_b);
     /// A coordinate that both ends share is preserved, so that rounding does not leave axis-aligned planes.
     Vec3 operator()(const Vec3& a, const Vec3& b, double t) const;

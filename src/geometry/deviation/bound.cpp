@@ -13,7 +13,7 @@ namespace facetmill {
 
 namespace {
 
-/// A corner, its distance from the other surface, and the closest triangle there.
+/// A corner, its distance from the other surface, and the closest triangle of that surface.
 struct Corner {
     Vec3 at;
     Closest closest;
@@ -35,13 +35,13 @@ double distance_to(const FaceTree& tree, Index triangle, const Piece& piece) {
     return most;
 }
 
-/// The bound of the piece from its corners alone; `enough` saves the rest of the work.
+/// The bound of the piece from its corners alone. A bound of at most `enough` is not improved further.
 double bound_of(const FaceTree& tree, const Piece& piece, double enough) {
     const auto& [a, b, c] = piece.corners;
     const double longest = std::max({length(b.at - a.at), length(c.at - b.at), length(a.at - c.at)});
     const double most = std::max({a.closest.distance, b.closest.distance, c.closest.distance});
-    constexpr double reach =
-        0.5773502691896258; // 1/sqrt(3): no point is farther from a corner, in longest edges
+    constexpr double reach = 0.5773502691896258; // 1/sqrt(3): the largest distance from the nearest corner,
+                                                 // relative to the longest edge
     double bound = most + longest * reach;
     for (std::size_t i = 0; i < 3 && bound > enough; ++i)
         bound = std::min(bound, distance_to(tree, piece.corners[i].closest.triangle, piece));

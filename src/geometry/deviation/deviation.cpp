@@ -70,7 +70,7 @@ void raise_maximum(DirectedDeviation& d, const Surface& from, const Farthest& fa
     d.face = farthest.triangle == none ? none : from.face(farthest.triangle);
 }
 
-/// Measures only the vertices, because a surface without area has no samples.
+/// Measures only the vertices of a surface without area, which has no samples.
 void measure_vertices(DirectedDeviation& d, const Surface& from, const SampleWalk& walk, const FaceTree& to,
                       const DeviationSettings& settings) {
     const std::vector<Vec3> vertices = walk.vertices();
@@ -118,8 +118,8 @@ void measure_samples(DirectedDeviation& d, const Surface& from, const SampleWalk
     set_means(d, sums);
 }
 
-/// Measures without the bound. order: the triangles, each near the previous. near: set to, [vertices], a
-/// triangle of the other surface's tree within the maximum of the vertex, or none; or left empty.
+/// Measures without the bound. order: the triangles, each near the previous. near: output, [vertices] a
+/// triangle of the other surface's tree within the maximum of each vertex, or none; it may stay empty.
 DirectedDeviation measured_to(const Surface& from, std::span<const Index> order, const FaceTree& to,
                               const DeviationSettings& settings, std::vector<Index>& near) {
     DirectedDeviation d;

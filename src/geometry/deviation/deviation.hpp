@@ -38,7 +38,8 @@ struct DirectedDeviation {
         0; ///< the number of samples that rms and mean use; without samples, they use vertices
     std::size_t vertices =
         0; ///< vertices of triangles; if the surface has samples, vertices enter only the maximum
-    /// The means use distances accurate to 1/256, or to 1/16384 of the maximum; most to a millionth.
+    /// The means use distances accurate to 1/256, or to 1/16384 of the maximum; most distances are accurate
+    /// to a millionth.
     double maximum = 0, rms = 0, mean = 0;
     Vec3 from, to;     ///< the farthest sample and the point closest to it
     Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex

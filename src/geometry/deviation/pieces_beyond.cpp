@@ -117,7 +117,7 @@ std::size_t tip_of(const SurfacePiece& piece, double distance) {
     return shortest == a ? 0 : shortest == b ? 1 : 2;
 }
 
-/// Cuts pieces into parts and finds those that are not within the distance.
+/// Cuts pieces into parts, and finds the parts that are not within the distance.
 class PieceCutter {
   public:
     PieceCutter(const FaceTree& to, double distance) : to_(to), distance_(distance), together_(to) {}

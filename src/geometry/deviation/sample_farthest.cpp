@@ -118,8 +118,8 @@ struct SampleWalk::Candidates {
         return near != none && is_near(a) && is_near(b) && is_near(c);
     }
 
-    /// Whether the corners are within the farthest distance of the same triangle, and so all samples between
-    /// them.
+    /// Whether the corners are within the farthest distance of the same triangle; then all samples between
+    /// them are too.
     bool have_same_near(Index t) const {
         if (near_corner.empty()) return false;
         const Index* const corners = &walk.from_.corners[3 * std::size_t{t}];

@@ -60,7 +60,7 @@ std::vector<Vec3> SampleWalk::vertices() const {
 
 std::size_t MeasuredSamples::chunk() const { return std::clamp<std::size_t>(runs.size() / 64, 1, 4096); }
 
-/// Samples that wait to be measured together. Only those that may be the farthest are looked up.
+/// Samples that wait to be measured together. Only samples that may be the farthest are looked up.
 struct SampleWalk::Groups {
     struct Waiting {
         Vec3 point;

@@ -16,8 +16,8 @@ namespace facetmill {
 struct MeasuredSamples {
     static constexpr std::size_t all_parts = 18; ///< the number of parts in which samples are measured
     static constexpr double unmeasured = -1;
-    /// A distance is computed again exactly if it is below this multiple of its error. It stays if the error
-    /// is below this part of the farthest distance so far.
+    /// A distance below this multiple of its error is computed again exactly, unless the error is below this
+    /// part of the farthest distance so far.
     static constexpr double most_errors = 256, least_part = 1.0 / 16384;
 
     /// order: the triangles, each near the previous.

@@ -50,8 +50,7 @@ Mesh taken_caps(Mesh& mesh, const std::vector<std::uint8_t>& is_cap_face) {
     return caps;
 }
 
-/// Removes the caps from all parts and returns them as parts. given: the scene of whose faces `bare`
-/// consists.
+/// Removes the caps from all parts and returns them as parts. given: the scene that `bare` was made from.
 std::vector<Part> taken_caps(Scene& bare, const Scene& given, Index last) {
     std::vector<Part> all;
     for (std::size_t i = 0; i < given.parts.size(); ++i) {

@@ -146,7 +146,7 @@ class Drainer {
             const Vec3 from = i == rays ? at : at + (aside * cosine(angle) + other * sine(angle)) * radius_;
             const std::vector<Hit> hits = all_hits(tree_, {from, from + down, true});
             const auto exit = std::find_if(hits.begin(), hits.end(), [](const Hit& h) { return h.way == 1; });
-            if (exit == hits.end()) return {}; // the section's border already is outside
+            if (exit == hits.end()) return {}; // the section's border is already outside
             left = std::max(left, exit->t);
             for (auto next = exit; next != hits.end(); ++next)
                 if (next->way == -1) {

@@ -33,7 +33,7 @@ struct EdgeLeaf {
     Index corner;
     Vec3 beside;
     bool forward; ///< from the edge's low vertex to its high vertex
-    int half = 0; ///< half turn around the edge, counted from the first leaf: 0 on it, 1, 2 opposite, 3
+    int half = 0; ///< 0: in the half plane of the first leaf, 2: opposite, 1 and 3: between them, in order
 };
 
 /// Sorts the leaves exactly by their angle from the first leaf around the edge from u to v. Ties are sorted

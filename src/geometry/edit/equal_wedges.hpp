@@ -10,7 +10,7 @@ namespace facetmill {
 /// wedges that no face uses stay. O(n log k) for k wedges at a vertex, parallel.
 std::size_t merge_equal_wedges(Mesh& mesh);
 
-/// The same; then drops what no face or line uses, if wedges were merged. A cloud keeps its points.
+/// The same; if wedges were merged, then drops elements that no face or line uses. A cloud keeps its points.
 std::size_t merge_and_drop_wedges(Mesh& mesh);
 
 } // namespace facetmill

@@ -128,7 +128,7 @@ void need(bool holds, std::string_view what, const std::string& found, std::stri
 void need_length(double x, std::string_view name) {
     constexpr double most = 1e37; // a diagonal of this length still fits float32
     need(x > 0, fmt::format("{} is above 0", name), to_string(x));
-    need(x <= most, fmt::format("{} is at most 1e+37, because files hold float32", name), to_string(x),
+    need(x <= most, fmt::format("{} must be at most 1e+37, because files hold float32", name), to_string(x),
          "use a smaller length, or a larger unit");
 }
 void need_count(std::int64_t n, std::int64_t least, std::string_view name) {
@@ -140,7 +140,7 @@ void refuse_giants(const GenerateSettings& s) {
     if (3 * faces > 2147483648.0)
         throw Error(
             ErrorKind::limit, "E-LIMIT",
-            fmt::format("generate: the shape would have about {:.3g} faces, at most {:.3g} are possible",
+            fmt::format("generate: the shape would have about {:.3g} faces, but at most {:.3g} are possible",
                         faces, 2147483648.0 / 3),
             "ask for fewer faces, cells or subdivisions");
     // Memory per triangle: three corners and half a vertex, twice while quads are cut, plus memory for
@@ -341,7 +341,7 @@ double generate_face_estimate(const GenerateSettings& s) {
 void check_generate_settings(const GenerateSettings& s) {
     const bool square = s.shape == Shape::cube || s.shape == Shape::grid || s.shape == Shape::gaussian;
     const bool tall = s.shape == Shape::cylinder || s.shape == Shape::cone;
-    need(s.noise >= 0 && s.noise <= 1e37, "noise is at least 0 and at most 1e+37", to_string(s.noise));
+    need(s.noise >= 0 && s.noise <= 1e37, "noise must be at least 0 and at most 1e+37", to_string(s.noise));
     if (square || s.shape == Shape::menger)
         need_length(s.size, "size");
     else
@@ -352,7 +352,7 @@ void check_generate_settings(const GenerateSettings& s) {
     if (s.shape == Shape::torus) {
         need_length(s.minor_radius, "minor_radius");
         need(s.minor_radius < s.radius,
-             fmt::format("minor_radius is below the radius {}", to_string(s.radius)),
+             fmt::format("minor_radius must be below the radius {}", to_string(s.radius)),
              to_string(s.minor_radius), "use a smaller minor_radius or a larger radius");
     }
     const bool round = tall || s.shape == Shape::sphere || s.shape == Shape::torus;

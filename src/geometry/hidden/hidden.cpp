@@ -89,7 +89,7 @@ class HiddenSearch {
         result_.outer_rays += n * n;
     }
 
-    /// Looks from a point of each hidden triangle.
+    /// Casts rays from a point of each hidden triangle.
     void look_outward(std::size_t sample, const Vec3& d) {
         const double start = 1e-6 * box_.diagonal();
         for (std::size_t t = 0; t < surface_.size();) {
@@ -149,7 +149,7 @@ HiddenFaces hidden_faces(const Surface& surface, const FaceTree& tree, std::size
     const double rays = outer_ray_count(surface.bounds(), settings.gap);
     if (!(rays <= most))
         throw Error(ErrorKind::limit, "E-LIMIT",
-                    fmt::format("hidden faces need {:.3g} rays for this gap, at most {:.0e} are possible",
+                    fmt::format("hidden faces need {:.3g} rays for this gap, but at most {:.0e} are possible",
                                 rays, most),
                     "give a larger gap");
     return HiddenSearch(surface, tree, faces, settings).run();

@@ -53,7 +53,7 @@ struct HullResult {
 /// sphere: the smallest ball. Its mesh is an icosphere around the ball, so that flat faces enclose it, too.
 /// capsule: around the longest axis of the box, with the smallest circle across it.
 ///
-/// Every shape but the exact hull is scaled about its centre, from one part in 2^48 upward, until exact
+/// Every shape except the exact hull is scaled about its centre, from one part in 2^48 upward, until exact
 /// predicates place all points inside or on it. A box around coplanar points is 2^-40 of its size thick.
 /// Throws a stage error (E-HULL) if no shape can be certified.
 [[nodiscard]] HullResult convex_hull(std::span<const Vec3> points, const HullSettings& settings);

@@ -1,6 +1,6 @@
 #pragma once
 // The functions that the rows of geometry/inspect/properties.cpp name. They measure properties on request,
-// and find locations where properties fail. All are parallel where that pays off.
+// and find locations where properties fail. They run in parallel if that is faster.
 
 #include "geometry/inspect/evidence.hpp"
 

@@ -405,10 +405,10 @@ constexpr Property table[] = {
      .also_called = "thickness min_thickness minimum_thickness",
      .kind = Kind::length,
      .join = Join::least,
-     .help = "The smallest distance through the solid, along the inward normals of faces: from all their "
-             "points to surfaces that face them (within 45 degrees) and to the bottoms of grooves and pits, "
-             "and from their centroids to any surface. It is 0 at edges and tips sharper than 45 degrees; "
-             "blunter edges are corners.",
+     .help = "The smallest distance through the solid, along the inward normals of faces. It is measured "
+             "from all points of faces to surfaces that face them (within 45 degrees) and to the bottoms of "
+             "grooves and pits. From centroids of faces, it is measured to any surface. It is 0 at edges and "
+             "tips sharper than 45 degrees; blunter edges are corners.",
      .hint = "no stage thickens the walls of a solid, but transform can scale all of it",
      .measure = thinnest_wall,
      .of_faces = wall_thicknesses,

@@ -141,7 +141,7 @@ class View {
         const Vec3 to = p - origin_;
         return {dot(to, u_), dot(to, v_), dot(to, d)};
     }
-    /// Cuts off what is beside the triangle or in front of it.
+    /// Cuts off the parts outside the triangle's prism, and the parts in front of it.
     void cut(SeenPolygon& polygon) const {
         for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
             const Seen &a = frame_[k], &b = frame_[(k + 1) % 3];
@@ -191,8 +191,8 @@ class Walls {
         mesh.corners = surface.corners;
         return mesh;
     }
-    /// Also finds the normals. Needles have none: rounding decides where they face, and their neighbours have
-    /// their points.
+    /// Also finds the normals. Needles get none, because rounding would decide where they face; neighbouring
+    /// faces contain their points.
     std::vector<Box> boxes() {
         std::vector<Box> all(surface_.size());
         parallel_for(all.size(), [&](std::size_t t) {
@@ -225,7 +225,8 @@ class Walls {
     }
     double rounding() const { return 1e-12 * size_; }
 
-    /// Of the points behind the triangle. Points that all lie in its plane are neighbours that face away.
+    /// The distance along d to the nearest part of a polygon behind the triangle. Polygons in the triangle's
+    /// plane are neighbours that face away.
     template <std::size_t N>
     double distance(const View& view, const std::array<Seen, N>& points) const {
         SeenPolygon polygon;

@@ -61,7 +61,7 @@ bool corner_inside(const Corners& s, const Sides& sides, const Corners& t) {
     return false;
 }
 
-/// For triangles in the same plane: whether an edge of s separates t from s. t may touch its line.
+/// For triangles in the same plane: whether an edge of s separates t from s. t may touch the edge's line.
 bool edge_parts(const Corners& s, const Corners& t) {
     const std::size_t view = view_of(s[0], s[1], s[2]);
     const int way = turn(s[0], s[1], s[2], view);
@@ -131,8 +131,8 @@ int order_from(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& q, const
     return a == 0 || a == 2 ? 0 : -orientation_3d(u, v, q, r);
 }
 
-/// Whether the half planes of p and o at an edge separate the half planes of q and r, none of which may
-/// coincide with p's or o's.
+/// Whether, around an edge, the half planes of q and r are on different sides of the half planes of p and o.
+/// Neither may coincide with the half planes of p or o.
 bool parts(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& o, const Vec3& q, const Vec3& r) {
     if (quarter(u, v, p, q) == 0 || quarter(u, v, p, r) == 0) return false;
     return order_from(u, v, p, q, o) * order_from(u, v, p, r, o) < 0;

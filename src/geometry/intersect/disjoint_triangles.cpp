@@ -43,8 +43,8 @@ bool beyond_an_edge(const double (&s)[3][2], const double (&t)[3][2]) {
     return false;
 }
 
-/// Whether the corners of two triangles at their common first point share only that point: no side of either
-/// is within the other.
+/// Whether the angles of two triangles at their common first corner share only that corner: no side of one
+/// angle is inside the other.
 bool corners_disjoint(const View& view) {
     const auto& a = view.a;
     const auto& b = view.b;

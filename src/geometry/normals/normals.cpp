@@ -24,11 +24,11 @@ double angle_at(const Mesh& mesh, Index f, Index c) {
 /// The faces of a mesh, and how their normals are combined.
 struct FaceNormals {
     std::vector<Vec3> units;   ///< [faces] normals; zero without area
-    std::vector<double> areas; ///< [faces] twice the areas, if they are the weights; empty: angles are
+    std::vector<double> areas; ///< [faces] twice the areas; empty: angles are the weights
     double least_cosine = 0;   ///< of the angle between the normals of faces that share a normal
 };
 
-/// Finds the corners of a vertex that share a normal, and those that also share a wedge.
+/// Finds the corners of a vertex that share a normal, and the corners that also share a wedge.
 class SmoothFan {
   public:
     SmoothFan(const Mesh& mesh, const std::vector<Index>& face_of, const FaceNormals& normals)
@@ -188,8 +188,7 @@ AttributeChanges without_normals(Mesh& mesh, bool had) {
     if (had) changes.push_back({"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "asked for"});
     std::erase_if(mesh.attributes, [&](const Attribute& a) {
         if (a.domain != Domain::wedge || !needs_normals(a.name)) return false;
-        changes.push_back(
-            {a.name, a.domain, AttributeChange::Kind::dropped, "without normals it means nothing"});
+        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "meaningless without normals"});
         return true;
     });
     list_normals(mesh, false);

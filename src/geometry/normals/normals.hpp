@@ -20,7 +20,7 @@ enum class NormalKind {
 /// The normal is the sum of their unit normals times their angles at the vertex (G. Thuermer and C.
 /// Wuethrich, "Computing vertex normals from polygonal facets", 1998), which does not depend on how flat
 /// areas are cut into triangles. Wedges split where normals differ. area: large faces have more weight, which
-/// keeps them flat beside narrow bevels. flat: see set_facet_normals. none: also removes TANGENT, and the
+/// keeps them flat next to narrow bevels. flat: see set_facet_normals. none: also removes TANGENT, and the
 /// changes of both by morph targets, because they would have no meaning.
 ///
 /// Vertices that no face uses are dropped when wedges merge. Other attributes follow their wedges; tangents

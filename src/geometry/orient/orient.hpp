@@ -43,12 +43,12 @@ struct OrientResult {
 };
 
 /// Reverses faces so that neighbours across edges with two faces agree. With `outward`, the front of each
-/// component becomes its outside. For closed components, the sign of the volume decides, together with a
-/// number. It counts the other closed components that contain them without touching (exact rays along an
-/// axis). For open components, rays from their faces along the axes decide: more rays escape from the
-/// outside. Edges with more than two faces separate components. A component that cannot be oriented (a
-/// Moebius strip) stays unchanged. Corners are reversed from the second on. Wedge normals that then point
-/// against their faces are reversed, as is the handedness of their tangents. O(n log n).
+/// component becomes its outside. For a closed component, two numbers decide: the sign of its volume, and how
+/// many other closed components contain it without touching it (exact rays along an axis). For open
+/// components, rays from their faces along the axes decide: more rays escape from the outside. Edges with
+/// more than two faces separate components. A component that cannot be oriented (a Moebius strip) stays
+/// unchanged. Corners are reversed from the second on. Wedge normals that then point against their faces are
+/// reversed, as is the handedness of their tangents. O(n log n).
 [[nodiscard]] OrientResult orient(Mesh mesh, const OrientSettings& settings);
 
 /// [faces] 1 for the faces that the method `consistent` reverses. The mesh stays unchanged.

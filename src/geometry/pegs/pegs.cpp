@@ -15,15 +15,15 @@ namespace facetmill {
 
 namespace {
 
-/// Cylinders along an axis of the world, from `below` under their place to `above` over it.
+/// A cylinder along a world axis, from `below` under its position to `above` over it.
 struct Bore {
     double radius = 0, below = 0, above = 0;
 };
 
-/// The cylinders of one kind of peg, at its place. A radius of 0 means none.
+/// The cylinders of one kind of peg, at its position. A radius of 0 means none.
 struct PegShape {
-    Bore added;                         ///< to the lower tile
-    Bore taken_low, taken_high;         ///< from the lower and the upper tile
+    Bore added;                         ///< added to the lower tile
+    Bore taken_low, taken_high;         ///< subtracted from the lower and the upper tile
     double free = 0;                    ///< the distance that the axis keeps to all surfaces
     double deep_low = 0, deep_high = 0; ///< how far the axis reaches into the lower and the upper tile
 

@@ -43,12 +43,11 @@ struct PegsResult {
 /// whole: the closed mesh that `tile` cut, in the same space. Pegs lie along the axes of the grid. All points
 /// of an axis have at least the radius of the hole plus the wall to the surface and to the borders of both
 /// tiles. The search along an axis has steps of an eighth of the wall, so at least 15/16 of the wall remain.
-/// Of the places on a square grid, pegs take those that are far apart. If the grid has no place, it is
-/// refined down to half the radius.
-/// Pegs have a polygon as their section. Its corners lie on the circle, and for a hole its sides touch it.
-/// Pegs and holes are united with tiles and subtracted from tiles exactly, so each tile stays a closed
-/// manifold. The volume of all tiles changes by the volume of pegs minus the volume of holes. The same for
-/// any number of threads.
+/// Candidate positions form a square grid, and pegs are placed at positions that are far apart. If the grid
+/// has no place, it is refined down to half the radius. Pegs have a polygon as their section. Its corners lie
+/// on the circle, and for a hole its sides touch it. Pegs and holes are united with tiles and subtracted from
+/// tiles exactly, so each tile stays a closed manifold. The volume of all tiles changes by the volume of pegs
+/// minus the volume of holes. The same for any number of threads.
 [[nodiscard]] PegsResult add_pegs(std::vector<Tile>& tiles, const Mesh& whole, const TileSettings& settings,
                                   const PegSettings& pegs);
 

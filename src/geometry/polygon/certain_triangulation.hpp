@@ -25,11 +25,11 @@ struct CutTriangle {
     std::vector<std::array<Index, 2>> lines; ///< lines between points
 };
 
-/// The constrained Delaunay triangulation by doubles; where points are nearly on a common circle, any
-/// choice. Certain signs of doubles prove that it is a triangulation for the true coordinates. None if the
-/// proof fails, which implies nothing. Triangles are anticlockwise, in no order. The proof: all triangles
-/// turn left. Their edges pair up, except along the sides, so they cover the triangle once. Each line is an
-/// edge. None for more than 48 points.
+/// The constrained Delaunay triangulation by doubles; where points are nearly on a common circle, any choice.
+/// Certain signs of doubles prove that it is a triangulation for the true coordinates. None if the proof
+/// fails; the triangulation may be correct even then. Triangles are anticlockwise, in no order. The proof:
+/// all triangles turn left. Their edges pair up, except along the sides, so they cover the triangle once.
+/// Each line is an edge. None for more than 48 points.
 [[nodiscard]] std::optional<std::vector<std::array<Index, 3>>> certain_triangulation(const CutTriangle& cut);
 
 /// The edges along the sides, anticlockwise, from point to point, as `sides` defines. None if their order is

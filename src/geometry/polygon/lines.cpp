@@ -32,8 +32,8 @@ std::int64_t line_above(double height, double spacing) {
     return k;
 }
 
-/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to only one
-/// side, so every line crosses every ring as often up as down.
+/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to only one side,
+/// so every line crosses every ring upwards as often as downwards.
 void cross_ring(Ring ring, const HatchSettings& s, bool frame, std::vector<Crossing>& out) {
     const Vec2 across{-s.direction.y, s.direction.x};
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -53,10 +53,10 @@ void cross_ring(Ring ring, const HatchSettings& s, bool frame, std::vector<Cross
 void check_limit(const Box& box, const HatchSettings& s) {
     const double lines = box.diagonal() / s.spacing;
     if (!(lines <= static_cast<double>(s.limit)))
-        throw Error(
-            ErrorKind::limit, "E-HATCH",
-            fmt::format("hatching would take about {:.0f} lines, and at most {} are drawn", lines, s.limit),
-            "choose a larger spacing");
+        throw Error(ErrorKind::limit, "E-HATCH",
+                    fmt::format("hatching would take about {:.0f} lines, but at most {} are possible", lines,
+                                s.limit),
+                    "choose a larger spacing");
     constexpr double whole = 0x1p52; // lines are counted from the origin
     if (!(std::max(length(box.min), length(box.max)) < whole * s.spacing))
         throw Error(ErrorKind::limit, "E-HATCH",

@@ -14,7 +14,7 @@ struct LooseParts {
 };
 
 /// Collects lines and points of the parts without faces, every n-th of each kind to stay within the limit.
-/// Skips those that are not finite. Colours come from the mesh and material, otherwise loose_colour.
+/// Skips points that are not finite. Colours come from the mesh and material, otherwise loose_colour.
 [[nodiscard]] LooseParts loose_parts(const Scene& scene, const ResolvedMaterials* materials,
                                      std::size_t most);
 

@@ -90,7 +90,8 @@ class PrintDirections {
   private:
     std::vector<Vec3> candidates() const {
         std::vector<Vec3> all{up_};
-        // Faces of the hull lie on the plate only in exactly their own direction.
+        // A face of the hull lies flat on the plate only in exactly its own direction, so hull directions are
+        // tallied finely.
         DirectionTally hull(1.0 / 4096), own(1.0 / 64);
         for (const auto& t : hull_.triangles)
             hull.add(twice_area({hull_.points[t[0]], hull_.points[t[1]], hull_.points[t[2]]}));
@@ -194,7 +195,7 @@ class PrintDirections {
 
     const Surface& surface_;
     Vec3 up_;
-    double steepest_; ///< the share of its area that an overhanging face at least turns down
+    double steepest_; ///< overhanging faces look down by more than this share of their area
     ConvexSurface hull_;
     Box box_;
     double on_plate_ = 0, total_ = 0;

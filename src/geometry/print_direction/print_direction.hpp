@@ -11,7 +11,7 @@ struct PrintDirectionSettings {
     double overhang_angle = 0.78539816339744830962;
 };
 
-/// A direction that points up, and what it means for the model.
+/// A direction that points up, with the resulting overhang and height of the model.
 struct PrintDirection {
     Vec3 up{0, 0, 1};    ///< of unit length
     double overhang = 0; ///< the area of overhanging faces, except faces that lie on the plate
@@ -22,15 +22,15 @@ struct PrintDirectionResult {
     PrintDirection before, after;
 };
 
-/// The direction with the least height among those with the least overhang, up to 1/1000 of the surface's
-/// area. Of equal heights, up to 1e-9 of the size, the nearest to `up`.
-/// The candidates are `up`, the directions in which a face of the convex hull lies on the plate, the normals
-/// of the surface with the largest areas, and 188 fixed directions. The four with the least overhang, and
-/// then the eight lowest, are turned in steps from 8 degrees down to half a degree while this improves them.
-/// Faces lie on the plate if their corners are at most four 32-bit steps above it. Faces overhang only if
-/// their slope is below the limit by more than 1e-6, so rounding does not decide for faces at the limit.
-/// The surface needs a face with area; up must have unit length. Parallel, in about 1000 passes over the
-/// surface; the same for any number of threads.
+/// Among the directions with the least overhang (up to 1/1000 of the surface's area), returns the one with
+/// the least height. If heights are equal up to 1e-9 of the size, returns the direction nearest to `up`. The
+/// candidates are `up`, the directions in which a face of the convex hull lies on the plate, the normals of
+/// the surface with the largest areas, and 188 fixed directions. The four with the least overhang, and then
+/// the eight lowest, are turned in steps from 8 degrees down to half a degree while this improves them. Faces
+/// lie on the plate if their corners are at most four 32-bit steps above it. Faces overhang only if their
+/// slope is below the limit by more than 1e-6, so rounding does not decide for faces at the limit. The
+/// surface needs a face with area; up must have unit length. Parallel, in about 1000 passes over the surface;
+/// the same for any number of threads.
 [[nodiscard]] PrintDirectionResult find_print_direction(const Surface& surface, const Vec3& up,
                                                         const PrintDirectionSettings& settings = {});
 

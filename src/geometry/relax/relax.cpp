@@ -121,8 +121,8 @@ void set_target(const Mesh& mesh, Attribute& a, const std::vector<Vec3>& target,
     });
 }
 
-/// Relaxes the morph targets of positions as often as the surface was, and reports the changes of all
-/// targets.
+/// Relaxes the morph targets of positions with as many iterations as the surface, and reports the changes of
+/// all targets.
 AttributeChanges relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
                                const Run& base) {
     AttributeChanges changes;

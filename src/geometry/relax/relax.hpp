@@ -37,10 +37,9 @@ struct RelaxSettings {
     double alpha = 0;                         ///< hc: weight of the original surface, 0 to 1
     double beta = 0.5;                        ///< hc: the vertex's own share of the pull-back, 0 to 1
     std::vector<double> mask = {};            ///< [vertices] share of the move, 0 to 1; empty: 1
-    /// Stops when no vertex moves farther than this in an iteration, in world units; 0: never. If the
-    /// surface keeps shrinking, relaxation stops before a third of its area is lost, because it would end as
-    /// a point. This compares with the area after the first iteration, because that iteration may remove
-    /// noise.
+    /// Stops when no vertex moves farther than this in an iteration, in world units; 0: never. If the surface
+    /// keeps shrinking, relaxation stops before a third of its area is lost, because it would end as a point.
+    /// The loss counts from the area after the first iteration, because that iteration may remove noise.
     double until = 0;
     Transform to_world = {}; ///< from the part's space to the world, where angles and moves are measured
 };
@@ -60,18 +59,19 @@ struct RelaxResult {
 /// P' = P + lambda (mean of the neighbours - P) per iteration, simultaneously for all vertices.
 ///
 /// - laplacian takes the plain mean (P. Bourke, "Surface Relaxation and Smoothing", 1997).
-/// - taubin (G. Taubin, "A signal processing approach to fair surface design", 1995) follows each step by
-///   one of mu = 1 / (pass_band - 1 / lambda), which is negative.
+/// - taubin (G. Taubin, "A signal processing approach to fair surface design", 1995) follows each step by a
+///   step of mu = 1 / (pass_band - 1 / lambda), which is negative.
 /// - cotangent weights each neighbour by the cotangents of the two angles opposite to the edge (U. Pinkall
-///   and K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993). They are recomputed
-///   in every iteration. Obtuse angles count 0, slivers at most 10^6 and triangles without area 0, so the
-///   mean stays among the neighbours.
+///   and K. Polthier, "Computing discrete minimal surfaces and their conjugates", 1993). The weights are
+///   recomputed in every iteration. Obtuse angles count 0, slivers at most 10^6 and triangles without area 0,
+///   so the mean stays among the neighbours.
 /// - implicit (M. Desbrun et al., "Implicit fairing of irregular meshes using diffusion and curvature flow",
 ///   1999) solves P' = P + lambda (mean' - P') with Eigen's conjugate gradients to a relative residual of
 ///   1e-10.
 /// - hc (J. Vollmer, R. Mencl and H. Mueller, "Improved Laplacian smoothing of noisy surface meshes", 1999)
-///   takes the laplacian step and pushes back by beta of the vertex's and 1 - beta of the neighbours' mean
-///   difference to alpha * first + (1 - alpha) * previous position.
+///   takes the laplacian step and then pushes back. Each vertex has a target, alpha * first + (1 - alpha) *
+///   previous position. The push is beta of the vertex's difference from its target, plus 1 - beta of the
+///   neighbours' mean difference from their targets.
 ///
 /// A boundary edge has exactly one face; edges with three and more faces are features. A vertex with exactly
 /// two feature (or, sliding, boundary) edges moves along them. A vertex with one feature edge or more than

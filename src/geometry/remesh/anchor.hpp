@@ -9,7 +9,7 @@ namespace facetmill::remeshing {
 /// A point of the input.
 struct Spot {
     Vec3 point;
-    double size = 0;   ///< the intended edge length there
+    double size = 0;   ///< the intended edge length at the point
     Index hint = none; ///< triangle of the tree
     Vec3 normal;       ///< of the face; zero on a line
 };

@@ -122,7 +122,7 @@ class Layout {
         out_.regions_of_faces.assign(mesh_.face_count(), none);
         for (Index f = 0; f < work().face_slots(); ++f)
             work().regions[f] = out_.regions_of_faces[source_[f]] = source_[sets.find(f)];
-        for (Index f = 0; f < mesh_.face_count(); ++f) // faces that were left out are regions of their own
+        for (Index f = 0; f < mesh_.face_count(); ++f) // each omitted face is a separate region
             if (out_.regions_of_faces[f] == none) out_.regions_of_faces[f] = f;
     }
 

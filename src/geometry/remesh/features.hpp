@@ -1,5 +1,5 @@
 #pragma once
-// Makes the working mesh, and finds what remeshing must keep.
+// Makes the working mesh, and finds the edges and vertices that remeshing must keep.
 
 #include "geometry/remesh/working_mesh.hpp"
 
@@ -12,7 +12,7 @@ struct LaidOut {
     std::vector<Index> regions_of_faces; ///< [faces of the input] regions
     std::size_t locked_edges = 0, dropped_faces = 0;
 };
-/// Connected sharp edges of less than least_line in total are noise, and no features.
+/// Connected sharp edges with a total length below least_line are noise, not features.
 [[nodiscard]] LaidOut lay_out(const Mesh& mesh, double feature_angle, double least_line);
 
 } // namespace facetmill::remeshing

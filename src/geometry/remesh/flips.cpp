@@ -11,7 +11,7 @@ double shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 namespace {
 
-/// The four vertices of two triangles, and what a flip makes of them.
+/// The four vertices of two triangles, and the triangles after a flip.
 class Diagonals {
   public:
     Diagonals(const WorkingMesh& m, Index h)
@@ -37,8 +37,8 @@ class Diagonals {
         return !m_.are_joined(c_, d_);
     }
 
-    /// How far the numbers of edges at the vertices are from the best, as the sum of squares. edges: added to
-    /// those of c and d, and taken from those of a and b.
+    /// How far the numbers of edges at the vertices are from the best, as the sum of squares. edges: the
+    /// number to add to the edges of c and d, and to subtract from the edges of a and b.
     [[nodiscard]] int excess(int edges) const {
         return square(a_, -edges) + square(b_, -edges) + square(c_, edges) + square(d_, edges);
     }

@@ -13,9 +13,9 @@ constexpr double longest_share = 4.0 / 3, shortest_share = 4.0 / 5;
 /// A feature line may move by this share of the intended length.
 constexpr double line_slack = 0.05;
 
-/// An edge that a pass will visit. It is skipped if its ends have changed by then.
+/// An edge that a pass will visit. It is skipped if its ends changed in the meantime.
 struct Candidate {
-    double share; ///< its length in parts of the intended length
+    double share; ///< its length divided by the intended length
     Index h, from, to;
     bool is_current(const WorkingMesh& m) const { return m.corners[h] == from && m.to(h) == to; }
 };
@@ -40,7 +40,7 @@ std::vector<Candidate> candidates(const WorkingMesh& m, double sign, Fits&& fits
     return all;
 }
 
-/// Whether the new vertex leaves the faces of the edge their normals.
+/// Whether the faces of the edge keep their normals with the new vertex.
 bool may_split(const WorkingMesh& m, Index h, const Vec3& point) {
     // Two faces with the same corners would get two edges between the same vertices.
     if (m.twins[h] != none && m.opposite(h) == m.opposite(m.twins[h])) return false;
@@ -97,7 +97,8 @@ class Collapser {
             const Index x = WorkingMesh::next(side), y = WorkingMesh::previous(side);
             if (m_.twins[x] == none && m_.twins[y] == none) return false;
             if ((m_.flags[x] | m_.flags[y]) & locked) return false;
-            // One of the two edges that fall together must be no feature, since the other region is lost.
+            // Two edges fall together; at most one may be a feature, because the face between them is
+            // removed.
             if (m_.flags[x] & feature && m_.flags[y] & feature) return false;
             if (m_.degrees[m_.opposite(side)] <= 3) return false;
         }
@@ -163,7 +164,7 @@ class Collapser {
 
     WorkingMesh& m_;
     const Anchor& anchor_;
-    std::vector<Index> marks_; ///< [vertices] number of the last collapse that met it
+    std::vector<Index> marks_; ///< [vertices] number of the last collapse that visited it
     Index mark_ = 0;
 };
 

@@ -15,7 +15,7 @@ inline constexpr double least_turn = 0.5;
     return along > 0 && along * along >= least_turn * least_turn * square;
 }
 
-/// Triangles of a worse shape have a normal that says little about the surface.
+/// Triangles of a worse shape have unreliable normals.
 inline constexpr double sliver = 0.15;
 
 /// The shape of a triangle: 1 for an equilateral one, 0 for one without area.
@@ -34,8 +34,8 @@ void flip_towards_six(WorkingMesh& mesh);
 /// Flips edges where this makes the worse shape of two triangles better. Returns the number.
 std::size_t flip_for_shape(WorkingMesh& mesh);
 
-/// Moves vertices towards the middle of their faces, along the surface or along their feature line. All move
-/// at once; those of a face that would turn stay. Parallel.
+/// Moves vertices towards the middle of their faces, along the surface or along their feature line. All
+/// vertices move at once. If a face would turn, its vertices do not move. Parallel.
 void relocate(WorkingMesh& mesh, const Anchor& anchor);
 
 } // namespace facetmill::remeshing

@@ -7,8 +7,8 @@ namespace facetmill::remeshing {
 
 namespace {
 
-/// Where a free vertex goes: towards the mean of the centres of its faces, weighted by their share of the
-/// intended areas.
+/// Moves a free vertex along its tangent plane to the mean of the centres of its faces, weighted by their
+/// share of the intended areas, and then onto the surface.
 std::optional<Spot> freely_moved(const WorkingMesh& m, const Anchor& anchor, Index v) {
     const Vec3& p = m.points[v];
     Vec3 normal, sum;
@@ -30,7 +30,7 @@ std::optional<Spot> freely_moved(const WorkingMesh& m, const Anchor& anchor, Ind
     return spot;
 }
 
-/// Where a vertex of a line goes: towards the middle of its neighbours, unless the line turns there.
+/// Moves a vertex of a line halfway to the middle of its neighbours, unless the line turns at the vertex.
 std::optional<Spot> moved_along(const WorkingMesh& m, const Anchor& anchor, Index v) {
     constexpr double straight = 0.94; // cosine of 20 degrees
     const auto ends = m.line_ends(v);
@@ -44,7 +44,7 @@ std::optional<Spot> moved_along(const WorkingMesh& m, const Anchor& anchor, Inde
     return spot;
 }
 
-/// Lets the vertices of faces that would turn stay, until no face turns.
+/// Keeps the vertices of faces that would turn at their old positions, until no face turns.
 void hold_turning_faces(const WorkingMesh& m, std::vector<Spot>& spots) {
     std::vector<std::uint8_t> turns(m.face_slots());
     for (std::size_t held = 1; held > 0;) {

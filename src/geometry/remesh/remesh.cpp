@@ -41,7 +41,7 @@ void refuse_giant_result(double faces) {
     if (!(faces <= most_faces))
         throw Error(
             ErrorKind::limit, "E-LIMIT",
-            fmt::format("remesh: the result would have about {:.3g} faces, at most {:.3g} are possible",
+            fmt::format("remesh: the result would have about {:.3g} faces, but at most {:.3g} are possible",
                         faces, most_faces),
             hint);
     if (is_much_memory(bytes_per_face * faces))

@@ -23,7 +23,7 @@ struct RemeshResult {
     AttributeChanges changes;
     double expected_faces = 0;                  ///< from area and lengths, before remeshing
     std::size_t feature_edges = 0;              ///< edges of the result that are features, borders or seams
-    std::size_t locked_edges = 0;               ///< non-manifold edges, which stay as they are
+    std::size_t locked_edges = 0;               ///< non-manifold edges, which are not changed
     std::size_t dropped_faces = 0;              ///< faces of the input with a repeated corner
     double shortest = 0, mean = 0, longest = 0; ///< edges of the result
 };
@@ -31,16 +31,17 @@ struct RemeshResult {
 /// Isotropic remeshing after M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling"
 /// (2004): splits long edges, collapses short ones, flips edges towards six at a vertex, and moves vertices
 /// towards the middle of their neighbours, on the surface. Lengths by curvature follow M. Dunyach et al.,
-/// "Adaptive remeshing for real-time mesh deformation" (2013); the curvature is that of D. Cohen-Steiner and
+/// "Adaptive remeshing for real-time mesh deformation" (2013); the curvature follows D. Cohen-Steiner and
 /// J.-M. Morvan, "Restricted Delaunay triangulations and normal cycle" (2003). Neighbouring lengths differ by
 /// at most half of their distance.
 ///
-/// Every vertex of the result is a point of the input surface, up to rounding. Kept are boundaries, sharp
-/// edges, seams of attributes, and borders of materials and of other face attributes with identifiers. Their
-/// vertices move only along them, and a vertex where they end, meet or turn stays. Connected sharp edges of
-/// less than two lengths in total, and less than a 20th of the diagonal, are noise, and not kept. Edges that
-/// are not manifold stay as they are. No step makes an edge or a vertex non-manifold, turns the normal of a
-/// face by more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and manifold.
+/// Every vertex of the result is a point of the input surface, up to rounding. Boundaries, sharp edges, seams
+/// of attributes, and borders of materials and of other face attributes with identifiers are kept. Their
+/// vertices move only along these lines, and vertices where lines end, meet or turn do not move. Connected
+/// sharp edges of less than two lengths in total, and less than a 20th of the diagonal, are noise, and not
+/// kept. Non-manifold edges are not changed. No step makes an edge or a vertex non-manifold, turns the normal
+/// of a face by more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and
+/// manifold.
 ///
 /// Faces are triangulated first. Faces with a repeated corner are dropped. Attributes are interpolated at the
 /// nearest points of the input (geometry/transfer). Seams that only normals make are merged below the feature

@@ -31,8 +31,8 @@ struct CurvatureSum {
         area += b.area;
         return *this;
     }
-    /// The larger absolute value of the two curvatures. The third eigenvalue is about 0, so their sum is the
-    /// trace and the sum of their squares that of the tensor.
+    /// The larger absolute value of the two curvatures. The third eigenvalue is about 0, so the sum of the
+    /// other two is the trace, and the sum of their squares is the squared norm of the tensor.
     double largest() const {
         if (!(area > 0)) return 0;
         const double sum = xx + yy + zz,

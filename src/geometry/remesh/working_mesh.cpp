@@ -170,7 +170,7 @@ void WorkingMesh::flip(Index h) {
 void WorkingMesh::compact() {
     std::vector<Index> vertex_now(points.size(), none), face_now(face_slots(), none);
     Index vertices = 0, faces = 0;
-    for (Index h = 0; h < corners.size(); ++h) // collapses and flips leave `out` of such a vertex as it was
+    for (Index h = 0; h < corners.size(); ++h) // collapses and flips do not change `out` of such a vertex
         if (corners[h] != none && kinds[corners[h]] == VertexKind::many) out[corners[h]] = h;
     for (Index v = 0; v < points.size(); ++v) {
         if (out[v] == none) continue;

@@ -46,7 +46,7 @@ class WorkingMesh {
     Index from(Index h) const { return corners[h]; }
     Index to(Index h) const { return corners[next(h)]; }
     Index opposite(Index h) const { return corners[previous(h)]; }
-    /// Whether h is the half edge that stands for its edge.
+    /// Whether h is the half edge that represents its edge.
     bool stands(Index h) const { return corners[h - h % 3] != none && (twins[h] == none || h < twins[h]); }
     double edge_length(Index h) const { return length(points[to(h)] - points[from(h)]); }
     /// The intended length of an edge.

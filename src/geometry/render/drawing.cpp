@@ -50,7 +50,8 @@ PartDrawing::PartDrawing(const Part& part, const Scene& scene, const PictureSett
       painter_(std::make_unique<Painter>(*mesh_, scene, settings, number, range)) {
     parallel_for(points_.size(),
                  [&](std::size_t v) { points_[v] = view.of(to_world_.point(mesh_->positions[v])); });
-    // Vertices keep their numbers when polygons are cut, so that these are the edges of the triangles.
+    // Vertices keep their numbers when polygons are cut into triangles, so the edges of the polygons can be
+    // found among the edges of the triangles.
     if (lines && has_faces_) lines_ = std::make_unique<RealEdges>(part.mesh);
     if (const Attribute* a = mesh_->find(primitive_attribute, Domain::face))
         primitive_of_face_ = std::get_if<std::vector<std::uint32_t>>(&a->data);

@@ -98,7 +98,7 @@ std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const P
     const std::size_t count = exclusive_scan(first);
     if (count > (std::size_t{1} << 30))
         throw Error(ErrorKind::limit, "E-SECTION",
-                    fmt::format("the sections would have {} segments, and at most {} are kept", count,
+                    fmt::format("the sections would have {} segments, but at most {} are possible", count,
                                 std::size_t{1} << 30),
                     "use fewer planes");
     std::vector<Piece> all(count);

@@ -136,7 +136,7 @@ bool is_collapsed(polygon::Ring ring) {
     return range.min == 0 && range.max == 0;
 }
 
-/// Straightens all contours; those that shrank to a point or a line are dropped and counted.
+/// Straightens all contours. Drops and counts contours that shrink to a point or a line.
 void tidy(Section& s, double rounding) {
     Index to = 0;
     std::size_t kept = 0;
@@ -259,10 +259,10 @@ Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optiona
         if (!(stack.spacing > 0)) planes = 0;
     }
     if (planes > static_cast<double>(max_planes))
-        throw Error(
-            ErrorKind::limit, "E-SECTION",
-            fmt::format("the stack would have {:.0f} planes, and at most {} are cut", planes, max_planes),
-            "choose a larger spacing");
+        throw Error(ErrorKind::limit, "E-SECTION",
+                    fmt::format("the stack would have {:.0f} planes, but at most {} are possible", planes,
+                                max_planes),
+                    "choose a larger spacing");
     for (std::int64_t i = 0; static_cast<double>(i) < planes; ++i)
         stack.heights.push_back(first + static_cast<double>(i) * stack.spacing);
     return stack;

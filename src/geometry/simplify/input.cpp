@@ -39,7 +39,7 @@ void settle_normals(Mesh& mesh, const NormalSeams& seams, AttributeChanges& chan
                                                           "were merged, interpolated elsewhere"};
         else if (change.attribute == "TANGENT")
             change = {change.attribute, change.domain, AttributeChange::Kind::interpolated,
-                      "one of each merged normal seam, mixed at new elements"};
+                      "the first tangent of each merged normal seam, mixed at new elements"};
     }
 }
 

@@ -83,7 +83,7 @@ class Sharer {
 
     double scale_;
     SimplifySettings settings_;
-    std::vector<Mesh> meshes_; ///< the input meshes; a single mesh belongs to the subject
+    std::vector<Mesh> meshes_; ///< the input meshes; subject_ takes a single mesh
     std::unique_ptr<SimplifyInput> subject_;
     std::size_t vertices_given_ = 0;
     std::optional<State> state_;

@@ -147,8 +147,8 @@ struct SimplifyResult {
 /// Non-manifold vertices stay, with all edges between them.
 ///
 /// First, polygons are triangulated, unused vertices dropped, and normal-only seams merged
-/// (merge_normal_seams). Where neighbours disagree, faces are reversed during the work (not for cluster) and
-/// restored at the end. A non-orientable surface (a Moebius strip) counts as not manifold there.
+/// (merge_normal_seams). If neighbouring faces disagree, faces are reversed during the work (not for cluster)
+/// and restored at the end. A non-orientable surface (a Moebius strip) counts as not manifold there.
 ///
 /// Guarantees: every collapse satisfies the link condition, so manifoldness, closedness, the genus and the
 /// numbers of components and boundary loops stay. A closed component keeps at least four faces. No collapse

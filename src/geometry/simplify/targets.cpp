@@ -33,10 +33,10 @@ bool locks(const SimplifyLocks& l) {
 /// Adds the settings that exclude the method, for targets and for levels.
 void refuse_by_method(const SimplifySettings& s, Refusals& refused) {
     const bool constrained = s.method == Method::constrained, cluster = s.method == Method::cluster;
-    refused.conflict(constrained && s.max_error, "max_error", "constrained takes no max_error",
+    refused.conflict(constrained && s.max_error, "max_error", "the method constrained has no max_error",
                      "use constraints: {hausdorff: 0.1%} to limit the error");
     refused.conflict(constrained && s.topology == Topology::allow, "topology",
-                     "constrained keeps the topology", "use the method quadric");
+                     "the method constrained always keeps the topology", "use the method quadric");
     refused.conflict(cluster && locks(s.lock), "lock", "cluster cannot lock vertices",
                      "use the method quadric");
     refused.conflict(cluster && s.self_intersections == Intersections::avoid, "self_intersections",
@@ -44,7 +44,7 @@ void refuse_by_method(const SimplifySettings& s, Refusals& refused) {
 }
 
 void refuse_by_levels(const SimplifySettings& s, Refusals& refused) {
-    refused.conflict(s.method == Method::constrained, "lods", "constrained takes no lods",
+    refused.conflict(s.method == Method::constrained, "lods", "the method constrained has no lods",
                      "use another method, or one simplify stage for each level");
     refused.conflict(has_target(s), "lods", "lods has its own targets",
                      "leave out ratio, faces, vertices and max_error");
@@ -59,10 +59,10 @@ void refuse_by_levels(const SimplifySettings& s, Refusals& refused) {
 void refuse_limits(const SimplifySettings& s, Refusals& refused) {
     if (s.max_quadric_error)
         refused.range(!(*s.max_quadric_error > 0), "max_quadric_error",
-                      "max_quadric_error is above 0, not " + to_string(*s.max_quadric_error));
+                      "max_quadric_error must be above 0, not " + to_string(*s.max_quadric_error));
     for (const double weight : {s.weights.uv, s.weights.normal, s.weights.colour, s.weights.skin})
         refused.range(!(weight >= 0 && std::isfinite(weight)), "weights",
-                      "weights are at least 0, not " + to_string(weight));
+                      "weights must be at least 0, not " + to_string(weight));
 }
 
 } // namespace
@@ -85,11 +85,12 @@ std::vector<Refusal> check_simplify_levels(const SimplifySettings& s) {
     Refusals refused;
     refuse_by_method(s, refused);
     refuse_by_levels(s, refused);
-    refused.range(s.levels.empty(), "lods", "lods: at least one ratio", "for example [100%, 50%, 10%]");
+    refused.range(s.levels.empty(), "lods", "lods needs at least one ratio", "for example [100%, 50%, 10%]");
     for (std::size_t i = 0; i < s.levels.size(); ++i) {
-        refused.range(!is_ratio(s.levels[i]), "lods", "lods: each ratio is 0 < x <= 1", "for example 50%");
-        refused.range(i > 0 && s.levels[i] > s.levels[i - 1], "lods", "lods: ratios go from fine to coarse",
-                      "for example [100%, 50%, 10%]");
+        refused.range(!is_ratio(s.levels[i]), "lods", "lods: each ratio must be 0 < x <= 1",
+                      "for example 50%");
+        refused.range(i > 0 && s.levels[i] > s.levels[i - 1], "lods",
+                      "lods: ratios must go from fine to coarse", "for example [100%, 50%, 10%]");
     }
     refuse_limits(s, refused);
     return refused.all;
@@ -97,8 +98,10 @@ std::vector<Refusal> check_simplify_levels(const SimplifySettings& s) {
 
 std::optional<Refusal> check_simplify_sharing(const SimplifySettings& s) {
     if (s.method == Method::cluster || s.method == Method::constrained)
-        return Refusal{"share", "cluster and constrained have no cost that parts could share by",
-                       "share: equal, or the method quadric"};
+        return Refusal{
+            "share",
+            "the costs of cluster and constrained are not comparable, so parts cannot share a target",
+            "use share: equal, or the method quadric"};
     const char* const hint = "use simplify_shares to find the number of triangles of each mesh";
     if (s.max_error) return Refusal{"max_error", "meshes that share a target take no max_error", hint};
     if (s.self_intersections != Intersections::ignore)

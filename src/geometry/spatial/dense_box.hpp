@@ -10,10 +10,10 @@
 
 namespace facetmill {
 
-/// The box around the middle of the points that contains all but far outliers. To each side it extends 32
-/// times the extent of the middle half of the points along its longest axis. It is clipped to `all`, the box
-/// of all points. Returns `all` if no point is outside. Uses about a thousand points, evenly spaced by
-/// number. point_of(i) returns point i.
+/// The box around the middle of the points, without far outliers. To each side it extends 32 times the extent
+/// of the middle half of the points along its longest axis. It is clipped to `all`, the box of all points.
+/// Returns `all` if no point is outside. Uses about a thousand points, evenly spaced by number. point_of(i)
+/// returns point i.
 template <class PointOf>
 [[nodiscard]] Box dense_box(std::size_t count, const Box& all, PointOf&& point_of) {
     std::array<std::vector<double>, 3> at;

@@ -39,7 +39,7 @@ struct Hit {
 /// All hits, sorted by t, then by face.
 [[nodiscard]] std::vector<Hit> all_hits(const FaceTree& tree, const Line& line);
 
-/// Hits of many lines: those of line i are hits[offsets[i]] to hits[offsets[i + 1]].
+/// Hits of many lines. The hits of line i are hits[offsets[i]] to hits[offsets[i + 1]].
 struct HitLists {
     std::vector<std::size_t> offsets;
     std::vector<Hit> hits;

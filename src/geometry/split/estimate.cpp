@@ -121,10 +121,11 @@ void SplitCensus::pass(SplitMethod method, double n) {
 
 void refuse_giant_split(const Mesh& mesh, double corners, const SplitWords& words) {
     if (corners > corner_limit)
-        throw Error(ErrorKind::limit, "E-LIMIT",
-                    fmt::format("{}: the result would have about {:.3g} corners, at most {:.0f} are possible",
-                                words.subject, corners, corner_limit),
-                    words.fewer);
+        throw Error(
+            ErrorKind::limit, "E-LIMIT",
+            fmt::format("{}: the result would have about {:.3g} corners, but at most {:.0f} are possible",
+                        words.subject, corners, corner_limit),
+            words.fewer);
     const double bytes = (bytes_per_corner + attribute_bytes(mesh) / 2) * corners;
     if (is_much_memory(bytes))
         require_memory(bytes, fmt::format("{}: a result of {:.3g} corners", words.subject, corners),

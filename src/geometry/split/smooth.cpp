@@ -355,12 +355,14 @@ void require_manifold(const Mesh& mesh, SplitMethod method) {
         const auto& [low, high] = table.edges[e];
         if (at.size() > 2)
             refuse(method, fmt::format("the edge of vertices {} and {} has {} faces", low, high, at.size()),
-                   "clean repairs non-manifold edges and vertices; midpoint splits them as they are");
+                   "use clean to repair non-manifold edges and vertices, or the method midpoint, which "
+                   "splits any mesh");
         if (at.size() == 2 && (mesh.vertex(at[0]) == low) == (mesh.vertex(at[1]) == low))
             refuse(method,
                    fmt::format("the faces at the edge of vertices {} and {} are oriented inconsistently", low,
                                high),
-                   "orient makes neighbouring faces consistent; midpoint splits them as they are");
+                   "use orient to make neighbouring faces consistent, or the method midpoint, which splits "
+                   "any mesh");
     }
     for (Index c = 0; c < mesh.corner_count(); ++c)
         if (table.corner_edge[c] == none)
@@ -370,7 +372,8 @@ void require_manifold(const Mesh& mesh, SplitMethod method) {
     for (Index v = 0; v < fans.size(); ++v)
         if (fans[v] > 1)
             refuse(method, fmt::format("{} fans of faces meet only at vertex {}", fans[v], v),
-                   "clean repairs non-manifold edges and vertices; midpoint splits them as they are");
+                   "use clean to repair non-manifold edges and vertices, or the method midpoint, which "
+                   "splits any mesh");
 }
 
 Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, AttributeChanges& changes) {

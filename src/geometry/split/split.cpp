@@ -125,8 +125,8 @@ bool is_reached(const Mesh& mesh, const SplitSettings& settings) {
     return settings.max_edge > 0 && facet_shape(mesh, settings.to_world).longest_edge <= settings.max_edge;
 }
 
-/// The expected duration of each pass, as far as it is known in advance: methods that halve edges replace a
-/// face by four.
+/// The expected duration of each pass, if it is known in advance: methods that halve edges replace a face by
+/// four.
 std::vector<double> lengths_of_passes(const Mesh& mesh, const SplitSettings& s) {
     double passes = std::min(s.passes, 16);
     if (s.max_edge > 0) {
@@ -205,7 +205,7 @@ std::optional<Refusal> check_split_targets(const SplitSettings& s) {
                        fmt::format("use {}", knows)};
     };
     if (s.max_edge > 0 && s.method != SplitMethod::bisect && !row_of(s.method).halves_edges)
-        return unreachable("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
+        return unreachable("max_edge", "use bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         return unreachable("min_angle", "bisect or notch");
     const char* target = s.max_edge > 0    ? "max_edge"
@@ -214,12 +214,13 @@ std::optional<Refusal> check_split_targets(const SplitSettings& s) {
                                            : nullptr;
     if (s.cut == SplitSettings::Cut::widest_angle && target)
         return Refusal{"cut",
-                       fmt::format("'cut: widest-angle' does not go with the target '{}', which its cuts may "
-                                   "never reach",
+                       fmt::format("'cut: widest-angle' cannot be combined with the target '{}', because its "
+                                   "cuts may never reach it",
                                    target),
                        "leave out cut, or give passes and no target"};
     if (s.min_angle > 0 && (s.max_edge > 0 || s.max_faces > 0))
-        return Refusal{"min_angle", "'min_angle' goes with no other target", "use two split stages"};
+        return Refusal{"min_angle", "'min_angle' cannot be combined with another target",
+                       "use two split stages"};
     return {};
 }
 

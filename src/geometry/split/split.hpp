@@ -135,7 +135,7 @@ struct FacetShape {
         0; ///< in radians, over all corners between edges of nonzero length; 0 without faces
 };
 [[nodiscard]] FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
-/// The mean over all corners of the edge that begins there; 0 without faces.
+/// The mean over all corners of the length of the edge that begins at the corner; 0 without faces.
 [[nodiscard]] double mean_edge(const Mesh& mesh, const Transform& to_world = {});
 
 /// Spots at counted vertices where triangles share two edges, so that their new edges coincide. This is

@@ -104,7 +104,8 @@ class PatchSearch {
         return patch;
     }
 
-    /// The corner along the edge in the only other face, if the faces continue each other there; else none.
+    /// The corner along the edge in the only other face, if the faces continue each other at the edge; else
+    /// none.
     Index across(Index corner) const {
         const Index e = edges_.corner_edge[corner];
         if (e == none || edges_.corners_of(e).size() != 2) return none;
@@ -212,7 +213,7 @@ class MovedPatch {
     std::size_t axis_ = 0;
     bool mirrored_ = false, finite_ = true, reversed_ = false;
     std::map<Index, Index> number_; ///< wedge -> point
-    std::vector<Index> wedges_;     ///< [points]; those of the outline first
+    std::vector<Index> wedges_;     ///< [points]; the points of the outline first
     std::size_t border_ = 0;
     Contours contours_;
 };

@@ -26,8 +26,8 @@ struct RedrawnFlats {
 /// The outline of a flat patch may move apart and stay sound although its triangles turn over. For example,
 /// the hole of a ring grows past the chords that its triangles use. Such a patch is triangulated again
 /// between the moved vertices (constrained Delaunay, exact), so its outline does not change. Vertices inside
-/// the patch that are not inside the moved outline lose their faces. A patch stays as it is if its moved
-/// outline crosses or touches itself, or if an edge of it is reversed.
+/// the patch that are not inside the moved outline lose their faces. A patch is not changed if its moved
+/// outline crosses or touches itself, or if one of its edges is reversed.
 ///
 /// Coplanar means within a millionth of twice the patch's diagonal (float32 resolution, as in face_kinds).
 /// moved: [vertices]. turned: the flags of turned_faces; the function clears them for sound patches.

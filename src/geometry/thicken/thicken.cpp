@@ -409,7 +409,7 @@ void resolve(Doubled& d, const ThickenMoves& moves, const Transform& to_world, T
     r.self_intersections = find_self_intersections(d.mesh, {.limit = 0, .separate_touching = true}).count;
 }
 
-/// The two sides of a solid whose faces are those of the front, of the back, and walls, in this order.
+/// The two sides of a solid. Its faces are the faces of the front, the back, and the walls, in this order.
 struct Sides {
     Moved front, back;
     std::size_t front_faces = 0, back_faces = 0;
@@ -467,7 +467,7 @@ void settle(Doubled& d, const Mesh& surface, const std::vector<Vec3>& ways, cons
             s.to_world, r);
 }
 
-/// [vertices of the solid] 1 for those that the surface's faces use, on either side.
+/// [vertices of the solid] 1 for vertices that faces of the surface use, on either side.
 std::vector<std::uint8_t> vertices_of_faces(const Mesh& surface) {
     const std::size_t n = surface.vertex_count();
     std::vector<std::uint8_t> used(2 * n, 0);

@@ -104,8 +104,8 @@ class Tiler {
         CellRange r{std::floor((least - a.origin) / a.size), std::ceil((most - a.origin) / a.size) - 1};
         if (!(std::fabs(r.low) < 1e9 && std::fabs(r.high) < 1e9) && r.high - r.low < 1e9)
             throw Error(ErrorKind::limit, "E-TILE",
-                        fmt::format("a part lies {:.3g} tiles from the grid's origin along one axis, and at "
-                                    "most 1e+09 are counted",
+                        fmt::format("a part lies {:.3g} tiles from the grid's origin along one axis, but at "
+                                    "most 1e+09 are possible",
                                     std::max(std::fabs(r.low), std::fabs(r.high))),
                         "choose a nearer origin, or a larger size");
         if (!(r.high - r.low < static_cast<double>(settings_.limit)))

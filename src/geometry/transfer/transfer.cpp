@@ -15,10 +15,10 @@ namespace {
 /// How far a wedge at a seam is looked up towards the centres of its faces, as a share of the way.
 constexpr double towards_faces = 1e-4;
 
-/// Where to look for the source of an element.
+/// The query that finds the source of an element.
 struct Lookup {
     Vec3 at;             ///< the element
-    Vec3 asked;          ///< slightly beside it, on its own side of a seam
+    Vec3 asked;          ///< next to the element, on its own side of a seam
     Vec3 middle;         ///< the mean of the centres of its faces
     Index region = none; ///< required region; none: any
 };
@@ -34,7 +34,7 @@ class SourceFinder {
         }
     }
 
-    /// [lookups] the source faces. distances: gets the distances of the points asked.
+    /// [lookups] the source faces. distances: receives the distances of the query points.
     std::vector<Index> faces_of(const std::vector<Lookup>& lookups, std::vector<double>* distances) const {
         std::vector<Vec3> points(lookups.size());
         parallel_for(points.size(), [&](std::size_t i) { points[i] = lookups[i].asked; });
@@ -108,7 +108,7 @@ class Lookups {
         std::vector<Lookup> all(to_.wedge_count());
         std::vector<Index> wedges_of(to_.vertex_count());
         std::vector<std::uint8_t> used(all.size());
-        std::vector<std::uint8_t> several(all.size()); // in several regions: values are continuous there
+        std::vector<std::uint8_t> several(all.size()); // in several regions, with continuous values
         for (Index w = 0; w < all.size(); ++w) ++wedges_of[to_.vertex_of_wedge(w)];
         for (Index f = 0; f < to_.face_count(); ++f) {
             const Vec3 middle = corner_mean(to_, f);

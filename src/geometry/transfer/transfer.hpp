@@ -30,10 +30,10 @@ struct SourceRegions {
 /// the point, the largest first.
 ///
 /// A wedge of a vertex with several wedges is looked up a ten thousandth of the way towards one of its faces.
-/// So it gets the values of its own side of a seam. A wedge in several regions takes any of them, because its
-/// values are continuous there. A face gets the source at its centre. If the region of the nearest face
-/// differs, points on the way to the centre of a face of the element are tried, then any face of the region.
-/// O(n log n), parallel; the result does not depend on the number of threads.
+/// So it gets the values of its own side of a seam. A wedge in several regions takes any of them, because
+/// values are continuous at their borders. A face gets the source at its centre. If the region of the nearest
+/// face differs, points on the way to the centre of a face of the element are tried, then any face of the
+/// region. O(n log n), parallel; the result does not depend on the number of threads.
 [[nodiscard]] NearestSources nearest_sources(const Mesh& from, const FaceTree& tree, const Mesh& to,
                                              const SourceRegions& regions = {});
 

@@ -31,15 +31,15 @@ struct CrossingFaces {
     std::size_t fans = 0;
 };
 
-/// Faces whose outline crosses or touches itself in its plane become triangles that cover the region it
-/// winds around (nonzero rule). The triangles are reversed where it winds clockwise. The even-odd rule would
-/// leave a hole where a face overlaps itself, unlike drawings and the union of solids. Each crossing gets a
-/// new vertex, interpolated along the edges, in all faces along these edges. So closed meshes stay closed,
-/// and other faces may gain corners. If the outline winds around a region several times, the region is
-/// covered once if the face has no neighbours. Otherwise it is covered as many times (overlapping), because
-/// the surface would be open otherwise. Constrained Delaunay, exact. Only planar faces are filled (within a
-/// millionth of their perimeter, as in face_kinds). Faces whose crossings round to other crossings stay
-/// unchanged. Triangles are skipped.
+/// Faces whose outline crosses or touches itself in its plane become triangles that cover the region it winds
+/// around (nonzero rule). The triangles are reversed where it winds clockwise. The even-odd rule would leave
+/// a hole where a face overlaps itself, unlike drawings and the union of solids. Each crossing gets a new
+/// vertex, interpolated along the edges, in all faces along these edges. So closed meshes stay closed, and
+/// other faces may gain corners. If the outline winds around a region several times, the region is covered
+/// once if the face has no neighbours. With neighbours, it is covered as often as the outline winds around it
+/// (the triangles overlap), because otherwise the surface would be open. Constrained Delaunay, exact. Only
+/// planar faces are filled (within a millionth of their perimeter, as in face_kinds). Faces whose crossings
+/// round to other crossings stay unchanged. Triangles are skipped.
 [[nodiscard]] CrossingFaces fill_crossing_faces(const Mesh& mesh);
 
 /// The value of CrossingFaces::fans, without making the mesh.

@@ -33,7 +33,7 @@ bool is_planar(std::span<const Vec3> corners, double deviation, double planar = 
 /// Counts the faces by kind. A face is not planar if a corner is farther from its plane than planar times
 /// the face's perimeter. The default is the resolution of float32 coordinates. Parallel.
 [[nodiscard]] FaceKinds face_kinds(const Mesh& mesh, double planar = 1e-6);
-/// Counts over all parts in world space; worst is none.
+/// Counts over all parts in world space; `worst` stays none.
 [[nodiscard]] FaceKinds face_kinds(const Scene& scene, double planar = 1e-6);
 
 struct TriangulateResult {

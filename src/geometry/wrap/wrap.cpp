@@ -19,7 +19,7 @@ namespace facetmill {
 
 namespace {
 
-/// A triangle, or the segment or the point that it is if it has no area.
+/// Adds a triangle. Without area, adds its segment or point instead.
 void add_face(WrapInput& input, Index a, Index b, Index c) {
     const auto& p = input.positions;
     if (!is_finite(p[a]) || !is_finite(p[b]) || !is_finite(p[c])) return;

@@ -125,8 +125,8 @@ class EndGraph {
         return removed;
     }
 
-    /// Rings through all curves; an even number of ends meets everywhere. At a node, neighbours by angle
-    /// belong together, so that rings do not cross there.
+    /// Rings through all curves; an even number of ends meets everywhere. At a node, ends that are neighbours
+    /// by angle are joined, so that rings do not cross at the node.
     std::vector<std::vector<Vec2>> rings() {
         find_ends();
         std::vector<Index> mate(node_.size(), none);
@@ -237,7 +237,7 @@ class EndGraph {
         return (same && near(false)) || (reversed && near(true));
     }
 
-    /// Whether the curve of end a leaves a node at a smaller angle than that of end b.
+    /// Whether the curve of end a leaves a node at a smaller angle than the curve of end b.
     bool is_before(Index node, Index a, Index b) const {
         const Vec2 &at = points_[node], &p = point_next_to(a), &q = point_next_to(b);
         const auto is_lower = [&](const Vec2& r) { return r.y < at.y || (r.y == at.y && r.x < at.x); };
@@ -292,8 +292,8 @@ class EndGraph {
     std::vector<Index> position_; ///< [nodes] in the path of split
 };
 
-/// Two loose ends that are nearer than a hundredth of their connected curves, and whose curves do not run
-/// side by side, as those of a hatch do.
+/// Two loose ends that are nearer than a hundredth of their connected curves. Their curves must not run side
+/// by side, as the lines of a hatch do.
 std::optional<OpenOutline> EndGraph::near_gap() {
     constexpr double part = 0.01;
     constexpr double side_by_side = -0.9; // the cosine of their directions
@@ -329,7 +329,7 @@ bool is_outermost(const std::vector<Vec2>& ring, const std::vector<std::vector<V
     });
 }
 
-/// A chain with two loose ends that has an outermost ring inside once a line of at most half its length
+/// A chain with two loose ends that encloses an outermost ring if a line of at most half the chain's length
 /// closes it.
 std::optional<OpenOutline> EndGraph::chain_around(const std::vector<std::vector<Vec2>>& rings) {
     find_ends();
@@ -370,7 +370,8 @@ double distance_to(const polygon::RingEdge& e, const Vec2& p) {
     return length(to - d * t);
 }
 
-/// Whether the corners and the middles of all edges of a ring are this near to the edges of another.
+/// Whether the corners and the middles of all edges of a ring are within this distance of the edges of
+/// another.
 bool lies_on(const std::vector<Vec2>& ring, const std::vector<Vec2>& other, double off) {
     const polygon::Ring span = other;
     const polygon::RingTree tree(polygon::Rings(&span, 1));

@@ -34,8 +34,9 @@ struct Chains {
 /// Ends are the same point if they are equal. Ends that then have no partner meet if they are nearer than
 /// 1e-5 of the larger curve's size: files give angles and radii with about six digits. Curves of a layer are
 /// joined first, and the rest across layers. Rings touch at most. Curves with an end that meets no other are
-/// open. They are doubtful if two ends are nearer than a hundredth of the curves, or if a straight line would
-/// close them around a ring, also one of `others`. Throws limit (E-SIZE) for too many ends in one place.
+/// open. Open curves are doubtful if two of their ends are nearer than a hundredth of the curves, or if a
+/// straight line would close the curves around a ring of the result or of `others`. Throws limit (E-SIZE) for
+/// too many ends in one place.
 [[nodiscard]] Chains join_chains(const std::vector<OpenCurve>& curves,
                                  const std::vector<std::vector<Vec2>>& others, const std::string& name);
 

@@ -55,7 +55,7 @@ struct DxfCurve {
 struct DxfCurves {
     std::vector<DxfCurve> curves;
     std::map<std::string, std::size_t> unused; ///< entities by type that are no curves in the plane
-    std::size_t hidden = 0; ///< entities on hidden layers, invisible, or on a paper sheet beside the model
+    std::size_t hidden = 0; ///< entities that are invisible, on hidden layers, or on a paper sheet
 };
 
 /// Arcs become segments of at most 5 degrees, and splines turn by at most that at a point. Heights count as

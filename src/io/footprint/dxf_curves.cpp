@@ -59,7 +59,7 @@ Vec2 direction(double degrees) {
     return v;
 }
 
-/// The plane of a block, or of an entity, in that of the drawing.
+/// The plane of a block or an entity, in the plane of the drawing.
 struct PlaneMap {
     Vec2 x{1, 0}, y{0, 1}, origin;
     Vec2 point(const Vec2& p) const { return x * p.x + y * p.y + origin; }
@@ -79,7 +79,7 @@ struct Insertion {
     int depth = 0;
 };
 
-/// Text, dimensions and the like, which no one takes for an outline.
+/// Text, dimensions and similar entities, which are never outlines.
 bool is_annotation(std::string_view type) {
     constexpr std::array<std::string_view, 20> types{"TEXT",
                                                      "MTEXT",
@@ -306,7 +306,8 @@ class DxfPlacer {
         const double ratio = number(e, 40, 1) * (looks_ == Looks::from_below ? -1 : 1);
         const Vec2 minor = Vec2{-major.y, major.x} * ratio;
         const double from = number(e, 41), to = number(e, 42, 2 * pi);
-        // Angles have six digits or more in files, so this is all of it. The ends are joined.
+        // Angles have six digits or more in files, so an arc that ends so near to its start is a whole
+        // ellipse. Its ends are joined.
         constexpr double rounding = 1e-5;
         double sweep = to - from;
         if (!(std::fabs(sweep) < 1000)) fail(e.line, "an ellipse has angles out of range");

@@ -21,9 +21,9 @@ struct FootprintFile {
 /// features and collections. WKT: POLYGON and MULTIPOLYGON, one or several. Text DXF: circles, ellipses,
 /// closed polylines, and lines, arcs, splines and polylines whose ends meet, also in inserted blocks. Arcs
 /// become segments of at most 5 degrees. Ignores heights. A ring that lies on another one is left out. Warns
-/// (W-FOOTPRINT) of entities and geometries that are left out, of such rings, and of a GeoJSON in degrees.
-/// Throws malformed (E-GEOJSON, E-WKT, E-DXF) with the line or the reason. Throws malformed (E-FOOTPRINT)
-/// without any polygon, and if the lines of a DXF leave a gap or branch.
+/// (W-FOOTPRINT) of entities, geometries and rings that are left out, and of a GeoJSON in degrees. Throws
+/// malformed (E-GEOJSON, E-WKT, E-DXF) with the line or the reason. Throws malformed (E-FOOTPRINT) without
+/// any polygon, and if the lines of a DXF leave a gap or branch.
 [[nodiscard]] FootprintFile read_footprint(const Input& input);
 
 /// The rings of a WKT text. name: the name for messages.

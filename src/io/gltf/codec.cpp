@@ -178,7 +178,7 @@ void warn_of_parts_not_shown(const Scene& scene, const Json& document, ReadLog& 
                      names.size() == 1 ? "a part is" : counted(names.size(), "part") + " are",
                      some_of(names)),
          {},
-         "they are measured, changed and written as the others are; the common key `only` leaves them out",
+         "they are measured, changed and written like the others; exclude them with the common key `only`",
          false});
 }
 
@@ -414,11 +414,11 @@ void keep_asset(Json& asset, const Json& other) {
     const Json extras = from->value("extras", Json::object());
     if (!asset.contains("extras") && !extras.empty()) asset["extras"] = extras;
     if (asset.contains("extras") && asset["extras"].is_object() && extras.is_object())
-        for (const auto& [name, value] : extras.items()) // those of the first document stay
+        for (const auto& [name, value] : extras.items()) // extras of the first document take precedence
             if (!asset["extras"].contains(name)) asset["extras"][name] = value;
 }
 
-/// Whether the copyright or extras of another document's asset differ from those that are written.
+/// Whether the copyright or extras of another document's asset differ from the written ones.
 bool has_other_metadata(const Json& asset, const Json& other) {
     const Json from = other.value("asset", Json::object());
     if (!from.is_object()) return false;
@@ -443,7 +443,7 @@ void warn_of_losses(Patch& patch, const std::string& name, const Json& other, bo
         lost.emplace_back("metadata");
     if (!lost.empty())
         patch.warn("W-MERGED",
-                   fmt::format("{} of '{}' are written, without its {}",
+                   fmt::format("{} of '{}' are written, but not its {}",
                                joined ? "the contents" : "only the meshes and materials", name,
                                fmt::join(lost, ", ")),
                    fmt::format("load '{}' alone, and write it to a separate file to keep them", name));
@@ -554,7 +554,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     Bytes buffer = builder.finish(written.warnings);
     drop_nulls(builder.json());
     warn_of_data_extras(patch, data_extras);
-    // Without meshes, names are what animations and programs find nodes by.
+    // Without meshes, animations and programs find nodes by their names.
     if (settings.drop_names && !scene.parts.empty()) drop_names(builder.json());
     // Whole-number positions must match other files exactly, so an empty box keeps node transforms exact.
     if (shortens)

@@ -36,7 +36,7 @@ class MaterialContents {
 /// dropped by a stage.
 [[nodiscard]] bool is_without_meshes(const Scene& scene);
 
-/// How viewers show a part of a document. Parts without a document are shown as they are.
+/// How viewers show a part of a document. Parts without a document are drawn unchanged.
 struct PartView {
     bool animated =
         false;           ///< an animation moves or shows its node or an ancestor; morph weights do not count
@@ -51,10 +51,10 @@ struct PartView {
 };
 /// [parts]. Throws malformed when the nodes or animations of a document are invalid.
 [[nodiscard]] std::vector<PartView> part_views(const Scene& scene);
-/// The world box of what viewers draw, each part at its largest scale. Unused vertices of documents, hidden
-/// parts and lower levels of detail do not count, unless nothing else is left.
+/// The world box of the drawn contents, with each part at its largest scale. Unused vertices of documents,
+/// hidden parts and lower levels of detail do not count, unless nothing else is left.
 [[nodiscard]] Box drawn_bounds(const Scene& scene, const std::vector<PartView>& views);
-/// The same; the bounds at rest if a document is invalid.
+/// The same for the views of the scene; the bounds at rest if a document is invalid.
 [[nodiscard]] Box drawn_bounds(const Scene& scene);
 
 /// By how much lengths of a part have grown since its materials were made.

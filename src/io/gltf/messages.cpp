@@ -37,8 +37,8 @@ const RegisterMessages gltf_messages{
     {"W-INSTANCES", "Instances of a glTF mesh now differ, so they are written as separate meshes.",
      "Ignore this warning if the larger file is acceptable."},
     {"W-INSTANCING",
-     "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing). Stages process one part, "
-     "which is placed at the largest instance.",
+     "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing). Stages process them as one "
+     "part, at the position of the largest instance.",
      "Write glTF to keep the instances. `load: {path: ..., instances: expand}` makes each one a part, and "
      "`optimize: {instance: true}` makes instances of parts again."},
     {"W-LODS",

@@ -314,7 +314,7 @@ Bytes repacked_image(Span bytes) {
     Bytes out = jpeg ? repacked_jpeg(bytes) : repacked_png(*image, bytes.size());
     if (out.empty() || out.size() >= bytes.size()) return {};
     const std::optional<Pixels> again = decoded_image(out);
-    if (!again || again->rgba != image->rgba) return {}; // a library fault: the pixels stay unchanged
+    if (!again || again->rgba != image->rgba) return {}; // a fault of the library changed pixels
     return out;
 }
 

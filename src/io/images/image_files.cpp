@@ -56,7 +56,7 @@ fs::path resolved(const fs::path& path, std::error_code& failed) {
     return failed ? fs::path() : fs::weakly_canonical(absolute, failed);
 }
 
-/// The path without "..", if this names the same file. Links can make it another file.
+/// The path without "..", if that path names the same file. With links, it may name a different file.
 fs::path plain(const fs::path& path, const fs::path& real) {
     std::error_code failed;
     const fs::path normal = path.lexically_normal();
@@ -117,8 +117,9 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
     std::error_code ignored;
     if (!fs::is_regular_file(*path, ignored)) {
         log.absent.push_back(*path);
-        return refuse(fmt::format("the file \"{}\" is missing", path->string()),
-                      "put the image there, or export the model with its textures in the file (GLB)");
+        return refuse(
+            fmt::format("the file \"{}\" is missing", path->string()),
+            "put the image into that folder, or export the model with its textures in the file (GLB)");
     }
     const auto size = fs::file_size(*path, ignored);
     if (!ignored)

@@ -14,7 +14,7 @@ namespace facetmill::io {
 [[nodiscard]] std::optional<std::filesystem::path> path_below(const Input& input,
                                                               const std::filesystem::path& relative);
 
-/// A hint how to allow a file that the directory rule refuses. Empty if no option allows it (an absolute
+/// A hint on how to allow a file that the directory rule refuses. Empty if no option allows it (an absolute
 /// path, a URL).
 [[nodiscard]] std::string hint_for_asset_root(const Input& input,
                                               const std::optional<std::filesystem::path>& relative);

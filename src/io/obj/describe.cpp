@@ -97,8 +97,9 @@ class Describer {
             const bool is_read = image && (image->type == "image/png" || image->type == "image/jpeg");
             if (is_read && image->spelled) return image;
             if (image)
-                why = is_read ? "a line of MTL cannot name its file, but a copy of it"
-                              : "its image is neither PNG nor JPEG";
+                why = is_read
+                          ? "MTL cannot store the name of its file; a copy gets another name (textures: copy)"
+                          : "its image is neither PNG nor JPEG";
         }
         lose_texture(key, why);
         return nullptr;
@@ -130,7 +131,7 @@ class Describer {
         std::uint64_t set = info->natural_or("texCoord", 0);
         if (moved) set = moved->natural_or("texCoord", set);
         if (set != 0) {
-            lose_texture(key, "it is laid on by another set of texture coordinates than the first");
+            lose_texture(key, "it does not use the first set of texture coordinates");
             return {};
         }
         if (moved && !take_transform(key, *moved, map)) return {};
@@ -257,12 +258,14 @@ class Describer {
         const auto specular = extension(material, "KHR_materials_specular");
         if (!specular) return;
         if (specular->find("specularTexture")) lose_texture("specularTexture", no_map);
-        if (number(*specular, "specularFactor", 1) != 1) lose("specularFactor", "MTL has no such word");
+        if (number(*specular, "specularFactor", 1) != 1)
+            lose("specularFactor", "MTL has no statement for it");
         const Colour tint = colour(*specular, "specularColorFactor", {1, 1, 1});
         if (!specular->find("specularColorTexture") && tint == Colour{1, 1, 1}) return;
         const bool black = std::max({tint[0], tint[1], tint[2]}) == 0;
         if (!is_plain() || black || out_.roughness == 0.0) {
-            const char* const why = black ? "a black Ks is no glTF" : "it goes with neither Pr nor Pm";
+            const char* const why =
+                black ? "a black Ks has no equivalent in glTF" : "MTL cannot combine it with Pr and Pm";
             lose("specularColorFactor", why);
             if (specular->find("specularColorTexture")) lose_texture("specularColorTexture", why);
             return;
@@ -281,7 +284,7 @@ class Describer {
         for (const auto& [name, value] : all->json().items()) {
             if (extensions_of_library().contains(name)) continue;
             const bool older = name == "KHR_materials_pbrSpecularGlossiness";
-            lose(name, older ? "only its diffuse colour is written" : "MTL has no such word");
+            lose(name, older ? "only its diffuse colour is written" : "MTL has no statement for it");
             note_textures(value);
         }
     }
@@ -330,7 +333,7 @@ Description describe(const Material& material, LibraryImages& images, LibraryLos
     try {
         if (material.document >= 0 && material.index >= 0) return Describer(material, images, losses).run();
     } catch (const Error& error) { // readers do not check a document beyond its meshes
-        losses.add("all but its colour", error.diagnostics().front().message, material.name);
+        losses.add("everything except its colour", error.diagnostics().front().message, material.name);
     }
     Description colour;
     const auto& base = material.base_colour;

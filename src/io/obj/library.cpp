@@ -244,8 +244,9 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
                 log.unrepeatable = true; // the next run may be able to read the file
             else
                 log.absent.push_back(*file);
-            warn(log, input.name(),
-                 fmt::format("materials keep their names only: {}", error.diagnostics().front().message));
+            warn(
+                log, input.name(),
+                fmt::format("only the names of materials are kept: {}", error.diagnostics().front().message));
         }
     }
     return all;

@@ -1,4 +1,4 @@
-// The glTF equivalents of MTL materials: metallic-roughness, a dielectric unless Pm says otherwise.
+// The glTF equivalents of MTL materials: metallic-roughness, and a dielectric unless Pm is given.
 
 #include "io/obj/materials.hpp"
 

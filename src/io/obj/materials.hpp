@@ -41,8 +41,8 @@ struct Description {
     bool operator==(const Description&) const = default;
 };
 
-/// The names in a mtllib statement. A name may have blanks, so the whole counts if that file exists, else
-/// each name up to ".mtl".
+/// The names in a mtllib statement. A name may have blanks, so the whole text is a name if that file exists;
+/// otherwise each name ends with ".mtl".
 [[nodiscard]] std::vector<std::string> library_names(const Input& input, const std::string& text);
 
 /// The materials of all libraries that the events name, by name. A library that cannot be read is a warning

@@ -35,7 +35,7 @@ struct Statements {
     std::size_t lines() const { return line_offsets.size() - 1; }
 };
 
-/// Whether colours of vertices count to 255 instead of 1. whole: all of them are whole numbers.
+/// Whether colours of vertices count to 255 instead of 1. whole: all numbers of the colours are whole.
 [[nodiscard]] constexpr bool count_to_255(double largest, bool whole) { return largest > (whole ? 1 : 2); }
 
 /// Parses the text, in parallel over chunks of lines. Throws malformed (E-OBJ, E-NAN) with the line.

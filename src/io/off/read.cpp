@@ -87,8 +87,9 @@ struct Builder {
     void check(std::int64_t vertices, std::int64_t faces, std::int64_t line, std::size_t left,
                std::size_t per_vertex, std::size_t per_face) const {
         if (vertices < 0 || faces < 0)
-            malformed(input.name(), line, "E-OFF",
-                      fmt::format("expected counts, found {} vertices and {} faces", vertices, faces));
+            malformed(
+                input.name(), line, "E-OFF",
+                fmt::format("expected counts of 0 or more, found {} vertices and {} faces", vertices, faces));
         if (static_cast<std::uint64_t>(vertices) > settings.max_vertices || vertices >= none || faces >= none)
             beyond_limit(
                 input.name(),
@@ -142,7 +143,7 @@ class TextReader {
     }
 
     /// Many programs write colours of vertices under the plain keyword OFF. They are recognised if each line
-    /// has one vertex, with as many numbers more, and a face follows.
+    /// has a vertex and the same number of further values, and a face follows.
     void take_unnamed_colours(std::int64_t vertices) {
         if (kind_.normals || kind_.colours || kind_.uvs) return;
         Text ahead = text_;
@@ -162,8 +163,8 @@ class TextReader {
         if (size == 0 || words < corners) return;
         kind_.colours = (size == 6 || size == 7) && !negative;
         if (!kind_.colours)
-            text_.fail(fmt::format("each vertex has {} numbers, and OFF promises three", size),
-                       "name what follows the coordinates: NOFF for normals, COFF for colours");
+            text_.fail(fmt::format("each vertex has {} numbers, but OFF has three", size),
+                       "begin the file with NOFF if normals follow the coordinates, or COFF for colours");
     }
 
     void vertex() {
@@ -339,7 +340,7 @@ Kind read_kind(Text& text) {
         kind.emplace();
     } else if (!kind && (word.starts_with('4') || word.find("OFF") != std::string_view::npos) &&
                word.ends_with("OFF")) {
-        text.fail(fmt::format("{} is a kind of OFF that is not read: points have three coordinates here",
+        text.fail(fmt::format("facetmill cannot read {}: it supports only points with three coordinates",
                               in_quotes(word)),
                   "expected OFF with any of the prefixes ST, C and N, in this order");
     } else if (!kind) {

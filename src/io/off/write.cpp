@@ -17,8 +17,8 @@ const Attribute* colours_of(const Mesh& mesh, Domain domain) {
     return a && (a->components == 3 || a->components == 4) ? a : nullptr;
 }
 
-/// Writes " 255 0 0 255" for bytes and " 1.0 0.0 0.0" for fractions, whose decimal point tells readers
-/// apart.
+/// Writes " 255 0 0 255" for bytes and " 1.0 0.0 0.0" for fractions, so that readers can distinguish them by
+/// the decimal point.
 void put_colour(std::string& out, const Attribute& a, std::size_t i) {
     const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&a.data);
     const auto n = static_cast<std::size_t>(a.components);
@@ -121,8 +121,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     if (rows.split)
         written.changes.push_back(
             {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
-             fmt::format("{} vertices became {}: OFF has one colour at a vertex, so seams split",
-                         world->vertex_count(), world->wedge_count())});
+             fmt::format(
+                 "{} vertices became {}: OFF has one colour at a vertex, so vertices on seams were split",
+                 world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "OFF", {"metadata"});
     warn_of_dropped(written, scene, "OFF", false);
     warn_of_parts(written, scene, "OFF");

@@ -84,7 +84,7 @@ void end_at_once(int exit_code, std::string_view message) {
     for (int expected = idle; !state.compare_exchange_strong(expected, dying); expected = idle) {
         if (expected == dying) wait_for_the_end();
         if (holder == std::this_thread::get_id()) return;
-        std::this_thread::yield(); // another thread is renaming outputs, which must be all or none
+        std::this_thread::yield(); // another thread is renaming outputs, and must rename all of them
     }
     undo_all();
     write_to_standard_error(message);

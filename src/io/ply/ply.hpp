@@ -38,7 +38,7 @@ struct Header {
     std::int64_t lines = 0;            ///< the number of header lines
     std::vector<std::string> textures; ///< file names from 'TextureFile' comments of some programs
     Stated stated{};                   ///< the unit and up axis that comments state
-    /// Other comments, without those that name the program that wrote the file, and lines of obj_info.
+    /// Other comments and lines of obj_info, except comments that name the program that wrote the file.
     std::vector<std::string> comments{};
     bool own = false; ///< facetmill wrote the file, so that its fractions of colours may exceed 2
 };

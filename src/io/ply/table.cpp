@@ -63,8 +63,8 @@ Attribute attribute_of(const Table& table, const std::vector<std::size_t>& colum
 
 constexpr float most_byte = 255, most_word = 65535;
 
-/// The value of full brightness: 1, 255 or 65535, of which the header tells nothing. All numbers of the file
-/// decide together. Overbright fractions up to 2 stay fractions.
+/// The value of full brightness: 1, 255 or 65535. The header does not give it. All numbers of the file decide
+/// together. Overbright fractions up to 2 stay fractions.
 float full_brightness(const std::vector<float>& values) {
     constexpr float overbright = 2;
     float largest = 0;

@@ -335,13 +335,14 @@ std::pair<Index, Index> face_sizes(const Mesh& mesh) {
 /// length fail. MeshLab and Blender read such files.
 void note_polygons(Written& written, Index smallest, Index largest) {
     if (smallest == largest) return;
-    written.warnings.push_back({Severity::note,
-                                {},
-                                fmt::format("faces of {} to {} corners: for trimesh and other programs that "
-                                            "read no such binary PLY, write with triangulate: true",
-                                            smallest, largest),
-                                {},
-                                {}});
+    written.warnings.push_back(
+        {Severity::note,
+         {},
+         fmt::format("faces have {} to {} corners, which trimesh and some other programs cannot read in "
+                     "binary PLY: use triangulate: true for them",
+                     smallest, largest),
+         {},
+         {}});
 }
 
 } // namespace
@@ -362,10 +363,10 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     add_positions(l);
     add_attributes(l, first, written);
     if (l.split && world->wedge_count() > world->vertex_count())
-        written.changes.push_back(
-            {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
-             fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
-                         world->vertex_count(), world->wedge_count())});
+        written.changes.push_back({"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
+                                   fmt::format("{} vertices became {}: PLY has one set of attributes at a "
+                                               "vertex, so vertices on seams were split",
+                                               world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY", {"metadata"});
     warn_of_dropped(written, scene, "PLY");
     if (!settings.ascii) note_polygons(written, smallest, largest);

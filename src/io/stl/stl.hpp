@@ -21,9 +21,8 @@ inline constexpr std::size_t head = 84, record = 50;
 /// The meaning of the two attribute bytes after a triangle: five bits for each colour, and a sixteenth bit.
 enum class Colouring {
     none,
-    viscam, ///< blue in the lowest bits; the sixteenth bit says that the triangle has a colour
-    magics, ///< red in the lowest bits; the sixteenth bit says that it has the colour of the whole, in the
-            ///< head
+    viscam, ///< blue in the lowest bits; the sixteenth bit is set if the triangle has a colour
+    magics, ///< red in the lowest bits; the sixteenth bit is set if the triangle has the header's colour
 };
 /// Of a binary file. Magics states its colours in the head ("COLOR="). Else a triangle with the sixteenth bit
 /// is one of VisCAM.

@@ -134,7 +134,7 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
         }
         if (!part.mesh.all_triangles() && told.insert({"polygons", Domain::face}).second)
             written.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,
-                                       "STL holds triangles: cut into them"});
+                                       "cut into triangles, because STL stores only triangles"});
     }
     leave_documents(written, scene, "STL");
     warn_of_dropped(written, scene, "STL", false);

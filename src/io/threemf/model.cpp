@@ -229,7 +229,7 @@ class ModelReader {
         }
     }
 
-    /// Keeps metadata, except those that describe the file. Names with a prefix are settings of programs.
+    /// Keeps metadata, except entries that describe the file. Names with a prefix are settings of programs.
     void metadata(const Element& e) {
         const std::string_view name = need(e, "name");
         if (std::find(std::begin(metadata_names), std::end(metadata_names), name) != std::end(metadata_names))
@@ -356,8 +356,8 @@ class ModelReader {
         for (const Properties& p : object.triangles) check(id, p, object.properties.group, missing);
         for (const std::uint32_t group : missing)
             model_.faults.push_back(fmt::format(
-                "object {} refers to the properties {}, which do not exist: it has no colour there", id,
-                group));
+                "object {} refers to the properties {}, which do not exist, so these faces have no colour",
+                id, group));
     }
     void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise,
                std::set<std::uint32_t>& missing) const {

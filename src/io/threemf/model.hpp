@@ -79,7 +79,7 @@ struct Model {
     std::map<std::uint32_t, TextureImageFile> textures;
     std::vector<Use> items;
     std::map<std::string, std::size_t> skipped;                ///< unsupported elements and their counts
-    std::vector<std::pair<std::string, std::string>> metadata; ///< names and texts, without those of programs
+    std::vector<std::pair<std::string, std::string>> metadata; ///< names and texts, except of programs
     std::vector<std::string> faults; ///< broken rules of the specification, for warnings
 };
 

@@ -65,7 +65,7 @@ class SceneMaker {
         std::vector<Use> items = main.items;
         if (items.empty()) {
             items = unused(main, path);
-            faults_.emplace_back("it builds nothing: the objects that no other object uses are read");
+            faults_.emplace_back("it builds no objects, so all objects that no other object uses are read");
         }
         for (const Use& item : items) warn_of_item(item);
         place_items(items);
@@ -293,10 +293,10 @@ class SceneMaker {
         const auto found = objects.find(item.object.id);
         if (found != objects.end() && found->second.type == "other")
             faults_.push_back(
-                fmt::format("it builds object {}, whose type is 'other', which it must not", item.object.id));
+                fmt::format("it builds object {} of type 'other', which 3MF forbids", item.object.id));
     }
 
-    /// Supports, modifiers and the like, which are no part of the product.
+    /// Supports, modifiers and similar objects, which are not part of the product.
     void warn_of_types() {
         if (left_out_.empty()) return;
         std::vector<std::string> words;
@@ -378,7 +378,7 @@ class SceneMaker {
     std::vector<ObjectId> open_;
     std::size_t uses_ = 0, vertices_ = 0;
     std::string extras_;                          ///< of the primitives of the object being read
-    std::map<std::string, std::size_t> left_out_; ///< what is not printed, by type or purpose
+    std::map<std::string, std::size_t> left_out_; ///< objects that are not printed, by type or purpose
     bool reads_all_types_ = false;
     std::vector<std::string> faults_; ///< broken rules of the specification
 };
@@ -429,7 +429,7 @@ const RegisterCodec codec({
     .can = {.normals = false,
             .transforms = true,
             .full_precision = true,
-            .attributes = "colours at corners or materials, none else; textures are only read"},
+            .attributes = "colours at corners, or materials; textures are read but not written"},
     .sniff = sniff,
     .read = with_linear_colours(read),
     .write = with_srgb_colours(write),

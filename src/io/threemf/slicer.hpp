@@ -20,7 +20,7 @@ class SlicerVolumes {
     /// The purpose of a component that is not printed; null if it is printed.
     [[nodiscard]] const std::string* purpose(std::uint32_t object, std::uint32_t component) const;
 
-    /// Messages about files that cannot be read, which say nothing about the geometry.
+    /// Messages about files that cannot be read. They do not concern the geometry.
     [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
 
   private:

@@ -89,7 +89,8 @@ class Looks {
             if (material(f) != none && has_colours(f)) return true;
         return false;
     }
-    /// The properties that triangles have which name none: those of the first face, if every face has any.
+    /// The properties of triangles that state none: the properties of the first face, if every face has
+    /// properties.
     Properties usual() const {
         for (Index f = 0; f < mesh_.face_count(); ++f)
             if (of(f).group == none) return {};
@@ -350,12 +351,12 @@ class ModelWriter {
         warn_of_names(written_, scene_, "3MF");
         if (polygons_)
             written_.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,
-                                        "3MF holds triangles: cut into them"});
+                                        "cut into triangles, because 3MF stores only triangles"});
         if (hides_materials_) {
             warn("W-MATERIAL", "triangles with colours have no material in 3MF");
-            written_.changes.push_back(
-                {"materials", Domain::face, AttributeChange::Kind::dropped,
-                 "a triangle of 3MF has colours or a material: those with colours lose it"});
+            written_.changes.push_back({"materials", Domain::face, AttributeChange::Kind::dropped,
+                                        "a triangle of 3MF has colours or a material, so triangles with "
+                                        "colours lose their material"});
         }
         if (written_.dropped_faces > 0)
             warn("W-FACES", fmt::format("{} with the same vertex twice not written, since 3MF forbids them",

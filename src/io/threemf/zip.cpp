@@ -90,7 +90,7 @@ std::uint64_t Archive::read_entry(std::uint64_t at) {
     const std::string path(as_text(bytes_.subspan(begin, name)));
     entry.path = path;
     if (!entries_.emplace(lower_case(path), entry).second)
-        fail(at, fmt::format("the entry '{}' is there twice", path));
+        fail(at, fmt::format("the entry '{}' occurs twice", path));
     return next;
 }
 
@@ -135,8 +135,7 @@ std::optional<Bytes> Archive::file(const std::string& path) {
     Bytes bytes = unpacked(packed, entry.method == stored ? Packing::none : Packing::deflate,
                            most - unpacked_, fmt::format("{}: {}", name_, path));
     if (bytes.size() != entry.size || crc_of(bytes) != entry.crc)
-        fail(entry.at,
-             fmt::format("the entry '{}' does not have the size and checksum that it should", path));
+        fail(entry.at, fmt::format("the entry '{}' has a wrong size or checksum", path));
     unpacked_ += bytes.size();
     return bytes;
 }

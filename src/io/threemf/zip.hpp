@@ -18,7 +18,7 @@ class Archive {
     /// and other compression methods. Throws a limit error (E-SIZE) if the total unpacked size is
     /// implausible for a mesh (see unpacked()).
     std::optional<Bytes> file(const std::string& path);
-    /// The paths of all entries, as they are stored, in the order without case.
+    /// The paths of all entries as stored, sorted without case.
     [[nodiscard]] std::vector<std::string> paths() const;
 
   private:

@@ -29,13 +29,13 @@ void declare_tile_settings(Declare<TileSettings>& d) {
              "The maximum number of triangles in a tile. A tile may have more if its borders need them.")
         .also_called(property_named("faces")->also_called)
         .between(100, 10000000);
-    d.choice<bool>(
-        "tiling", &TileSettings::implicit,
-        {{"explicit", false, "the tileset lists every tile"},
-         {"implicit", true,
-          "tiles are identified by their level and position in a quadtree. Binary files list the existing "
-          "tiles of a few levels each, with boxes and errors. Viewers need not read the whole list"}},
-        "How the tileset refers to its tiles.");
+    d.choice<bool>("tiling", &TileSettings::implicit,
+                   {{"explicit", false, "the tileset lists every tile"},
+                    {"implicit", true,
+                     "tiles are identified by their level and position in a quadtree. Binary files list the "
+                     "existing tiles, with boxes and errors. Each file covers a few levels, so viewers read "
+                     "only the files that they need"}},
+                   "How the tileset refers to its tiles.");
 }
 
 std::vector<WriteOption> options() {

@@ -96,7 +96,7 @@ class Availability {
         bits_ = views[bitstream.index(views.size(), "bufferViews")];
         if (bits_.size() < (count + 7) / 8)
             bitstream.fail(
-                fmt::format("has {} bytes, {} places need {}", bits_.size(), count, (count + 7) / 8),
+                fmt::format("has {} bytes, but {} tiles need {}", bits_.size(), count, (count + 7) / 8),
                 "E-TILESET");
     }
     bool operator[](std::size_t place) const {
@@ -129,7 +129,7 @@ struct Subtree {
         const std::uint64_t text = little_endian(bytes, 8, 8), rest = little_endian(bytes, 16, 8);
         const std::uint64_t there = bytes.size() - header;
         if (text > there || rest > there - text)
-            wrong(fmt::format("says that {} and {} bytes follow its header, {} do", text, rest, there));
+            wrong(fmt::format("its header announces {} and {} bytes, but {} follow it", text, rest, there));
         json = gltf::parse_document(as_text(bytes.subspan(header, text)));
         binary = bytes.subspan(header + text, rest);
     }

@@ -54,7 +54,7 @@ std::shared_ptr<const Document> materials_only(const Document& document, bool sh
         written.warnings.push_back(
             {Severity::warning,
              "W-MERGED",
-             fmt::format("only the meshes and materials of '{}' are written, without its {}", document.name,
+             fmt::format("only the meshes and materials of '{}' are written, but not its {}", document.name,
                          fmt::join(lost, ", ")),
              {},
              "write a .glb to keep them"});

@@ -12,7 +12,7 @@ void watch_model(Engine& engine) {
         engine.record().model = model_row(*event.scene, settings);
     };
     const auto whole = [measured](const Event& event) { measured(event, true); };
-    // A stage that fails later consumes its scene. Walls take too long to be measured twice.
+    // A stage that fails later consumes its scene. Measuring walls twice would take too long.
     const auto loaded = [measured](const Event& event) { measured(event, false); };
     const auto loads = [](const Event& event) { return event.step->info->loads; };
     const auto fails = [&engine](const Event& event) { return fails_check(engine, event); };

@@ -13,7 +13,7 @@ void declare_mask(Declare<MaskSettings>& d);
 /// The help of the group.
 inline constexpr const char* mask_help =
     "Limits the movement of vertices. A vertex moves if all its faces have the given material and group. The "
-    "attribute scales its movement.";
+    "attribute scales the movement of each vertex.";
 
 /// Whether the caps of cuts may move.
 enum class Caps { fixed, free };

@@ -6,7 +6,7 @@ namespace facetmill::help::align {
 inline constexpr const char* about = R"(Moves the scene onto another mesh, by rotation and translation.)";
 
 inline constexpr const char* details =
-    R"(Use align before diff, ensure: {deviation: ...} and transfer, which need meshes in the same place.
+    R"(Use align before diff, ensure: {deviation: ...} and transfer, which need meshes at the same position.
 
 The stage first tries the current position and all 24 rotations that match the principal axes of both
 surfaces.

@@ -26,7 +26,7 @@ With walls: false, one face of each orientation is kept.
 At an edge with more than two faces, the faces that enclose the same inside stay connected.
 If other faces connect both ends of the edge, a point is added in its middle.
 If that point must be rounded, all faces at the edge use it.
-The edge stays unchanged if this would make faces intersect or lose their area (W-CLEAN).
+The edge stays unchanged if the point would make faces intersect or lose their area (W-CLEAN).
 
 The step self_intersections: union combines closed components that pass through each other or
 themselves into a single solid.
@@ -51,8 +51,8 @@ of a component or leave an intersection.
 
 The search for intersections is limited.
 It is skipped if the number of overlapping bounding box pairs exceeds 33 million plus 32 per face.
-After a million unresolved pairs of intersecting faces, parts with more such pairs than faces are
-left unchanged.
+If a million pairs of intersecting faces could not be resolved, later parts with more such pairs than
+faces are left unchanged.
 
 Holes that touch at a vertex are filled separately.
 A hole stays open if its patch does not fit or would intersect other faces.

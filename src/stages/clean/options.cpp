@@ -112,8 +112,8 @@ void declare_clean(Declare<CleanOptions>& d) {
          "Keeps one of several faces with the same vertices. Removes inner walls made of two opposite faces.")
         .also_called("remove_duplicates remove_doubles dedup");
     d.option("walls", &CleanOptions::walls,
-             "Removes one or both of two opposite faces with the same vertices, as an inner wall of a solid. "
-             "false keeps both sides, which are seen on leaves, cloth and panels.");
+             "Removes one or both faces of each pair with the same vertices and opposite orientation, such "
+             "as an inner wall. false keeps both, for example on leaves, cloth and panels.");
     d.choice<Nearness>("t_junctions", &CleanOptions::t_junctions,
                        nearness("if a vertex is exactly on a boundary edge",
                                 "also if a vertex is within `tolerance` of a boundary edge"),
@@ -141,18 +141,17 @@ void declare_clean(Declare<CleanOptions>& d) {
              "Scales normals and tangents to length 1, and the joint weights of each wedge to the sum 1, as "
              "normals: keep does.")
         .also_called("normalize normalise normalize_weights renormalize");
-    d.choice<bool>(
-        "precision", &CleanOptions::single,
-        {{"full", false, "64-bit floats"},
-         {"single", true,
-          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays correct in such "
-          "files. If rounding causes the first intersections, they are resolved as by "
-          "self_intersections: all"}},
-        "The precision of vertex coordinates.");
+    d.choice<bool>("precision", &CleanOptions::single,
+                   {{"full", false, "64-bit floats"},
+                    {"single", true,
+                     "32-bit floats, as in glTF, STL and most PLY files, so that the result stays correct in "
+                     "such files. If rounding causes intersections in a mesh without any, they are resolved "
+                     "as by self_intersections: all"}},
+                   "The precision of vertex coordinates.");
     d.option("apart", &CleanOptions::apart,
-             "With precision: single, moves separated vertices at the same position apart by a few steps of "
-             "32-bit floats. Formats and programs that merge equal positions, such as STL and slicers, then "
-             "keep them separate.");
+             "With precision: single, moves separated vertices at the same position by a few steps of 32-bit "
+             "floats, so that they differ. Formats and programs that merge equal positions, such as STL and "
+             "slicers, then keep them separate.");
 }
 
 CleanSettings clean_steps_of(const CleanOptions& o) {
@@ -205,11 +204,11 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
                     "clean", given, problems);
     const bool may_move = o.single && o.non_manifold && o.weld != Nearness::off;
     if (o.apart && !may_move && given.find("apart"))
-        add_refusal(Refusal{"apart",
-                            "'apart' has no effect: it needs coordinates of 32 bits, after equal vertices "
-                            "were merged and non-manifold ones separated",
-                            "use precision: single, with weld and non_manifold on"},
-                    "clean", given, problems);
+        add_refusal(
+            Refusal{"apart",
+                    "'apart' has no effect, because it needs precision: single, weld and non_manifold",
+                    "use precision: single, with weld and non_manifold on"},
+            "clean", given, problems);
     if (o.gap && !o.hidden)
         add_refusal(Refusal{"gap", "'gap' needs hidden: true", "add hidden: true"}, "clean", given, problems);
     const auto& c = o.components;

@@ -62,8 +62,9 @@ void declare_part(DeclareFields<CleanedPart>& d) {
         };
     hidden("hidden_area", &HiddenCounts::area, "The area of the removed hidden faces.")
         .unit("square scene units");
-    hidden("outer_rays", &HiddenCounts::outer_rays, "Rays from outside, for the whole scene.");
-    hidden("face_rays", &HiddenCounts::face_rays, "Rays from faces that no ray from outside reached.");
+    hidden("outer_rays", &HiddenCounts::outer_rays, "The number of rays cast from outside the scene.");
+    hidden("face_rays", &HiddenCounts::face_rays,
+           "The number of rays cast from faces that no ray from outside reached.");
     count("removed_inner_components", &C::inner_components, "Removed components inside others.");
     count("inner_component_faces", &C::inner_component_faces, "Faces of the removed inner components.");
     count("isolated_vertices", &C::isolated_vertices, "Removed vertices without faces.");

@@ -84,7 +84,7 @@ void verify_footprint(const FootprintOption& option, const Value& value, std::st
 
 namespace {
 
-/// The factor from the unit of a file to that of the scene. Warns (W-UNITS) if only one of them is known.
+/// The factor from the unit of a file to the unit of the scene. Warns (W-UNITS) if only one of them is known.
 double unit_factor(const io::FootprintFile& file, const std::string& name, Unit scene, Context& context) {
     if (file.metres > 0 && scene != Unit::unknown) return file.metres / metres(scene);
     if (file.metres > 0)

@@ -39,8 +39,9 @@ void declare_avoided(DeclareFields<AvoidResult>& d) {
         "The scope of the check for intersections.");
     d.field("before", &AvoidResult::exempt, "Intersecting pairs of faces before.");
     d.field("found", &AvoidResult::found,
-            "Faces that full displacements would make intersect, lose their area, or stretch beyond eight "
-            "times their longest edge. The limit is lower if most faces would intersect.");
+            "Faces that would intersect, lose their area, or stretch beyond eight times their longest edge, "
+            "if all vertices moved by their full displacement. The limit of the stretch is lower if most "
+            "faces would intersect.");
     d.field("rounds", &AvoidResult::rounds, "The number of rounds that lowered shares.");
     d.field("coarse", &AvoidResult::coarse,
             "Positions whose shares were lowered in large steps to limit the work (W-CRUMPLE-COARSE).");

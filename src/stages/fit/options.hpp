@@ -21,7 +21,7 @@ struct FitOptions {
 };
 
 void declare_fit(Declare<FitOptions>& d);
-/// Checks that the declaration cannot express: a target is missing, or the file is no glTF.
+/// Checks that the declaration cannot express: a target is missing, or the file is not glTF.
 void verify_fit(const FitOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::fit_stage

@@ -145,7 +145,7 @@ Scene selected(const Scene& scene, const Context& context) {
     return out;
 }
 
-/// Writes the chosen file, and judges the bytes and pictures of what was written.
+/// Writes the chosen file, and judges its bytes and pictures.
 void write_choice(const Search& search, const Candidate& chosen, const Scene& subject, Context& context,
                   FitReport& report) {
     const Trials& trials = search.trials();

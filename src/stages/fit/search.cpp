@@ -76,7 +76,7 @@ void Search::measure_ratios() {
     constexpr std::size_t levels = 14, fewest_triangles = 48;
     for (std::size_t level = 0; level < levels; ++level) {
         const ProgressScope share(static_cast<double>(level) / levels, (level + 1.0) / levels);
-        // The first steps are short, because most files end up there.
+        // The first steps are short, because most results lie in this range.
         const double keep = level < 4 ? 1 - 0.2 * static_cast<double>(level)
                                       : std::ldexp(0.5, 3 - static_cast<int>(level)) * 1.2;
         Scene reduced = trials_.simplified(keep);
@@ -138,7 +138,7 @@ void Search::measure_images(bool of_normals) {
     const std::size_t given = of_normals ? whole.normals : whole.colours;
     auto& curve = of_normals ? curves_.normals : curves_.colours;
     const ImageChoice first = largest(given);
-    // The bytes of all images belong to the colours, and those of normal maps are relative.
+    // The bytes of all images count for the colours, and the bytes of normal maps are relative to them.
     const double base = of_normals ? static_cast<double>(whole.bytes) : 0;
     if (first.side == 0) curve = {{{}, {static_cast<double>(whole.bytes) - base, 0}}};
     const std::size_t longest = first.side > 0 ? first.side : given;
@@ -163,7 +163,7 @@ void Search::measure_images(bool of_normals) {
     }
 }
 
-/// Tries what the model predicts, and corrects the limit by the real file.
+/// Tries the predictions of the model, and corrects the limit by the real file.
 void Search::try_choices(const Model& model, std::size_t rounds, std::optional<Candidate>& best) {
     const std::size_t last = tried_ + rounds;
     for (int step = 0; step < 60 && tried_ < last; ++step) {

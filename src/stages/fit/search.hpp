@@ -17,8 +17,8 @@ class Search {
     /// The scene, the options and the context must outlive it.
     Search(const Scene& scene, const FitOptions& o, Context& context);
 
-    /// The best choice, or what comes nearest to the limits. It tries at most 120 files and pictures.
-    /// other: a search with another compression, whose measured images are taken.
+    /// The best choice, or the choice nearest to the limits. It tries at most 120 files and pictures. other:
+    /// a search with another compression, whose measured images are taken.
     [[nodiscard]] Candidate best(const Search* other = nullptr);
 
     const Trials& trials() const { return trials_; }

@@ -11,7 +11,7 @@ namespace facetmill::fit_stage {
 
 namespace {
 
-/// The state of a run aside, whose files are dropped with it.
+/// The state of a separate run, whose files are discarded with it.
 struct Aside {
     RunState state;
     report::StageRecord record;

@@ -1,12 +1,12 @@
 #pragma once
-// Files that fit tries: it runs the stages simplify, textures and write aside, on copies of the scene.
+// Files that fit tries: it runs the stages simplify, textures and write separately, on copies of the scene.
 
 #include "diff/likeness.hpp"
 #include "stages/fit/options.hpp"
 
 namespace facetmill::fit_stage {
 
-/// The size and quality of the images of a role. Side 0: they stay as they are.
+/// The size and quality of the images of a role. Side 0: the images are not changed.
 struct ImageChoice {
     std::size_t side = 0;
     int quality = 0;
@@ -39,7 +39,7 @@ class Trials {
     Trials(const Scene& scene, const FitOptions& o, Context& context)
         : scene_(scene), o_(o), context_(context) {}
 
-    /// The scene with this ratio of triangles. changes: receives what happened to attributes.
+    /// The scene with this ratio of triangles. changes: receives the changes of attributes.
     [[nodiscard]] Scene simplified(double keep, std::vector<report::PartChange>* changes = nullptr) const;
     /// The scene with smaller images.
     [[nodiscard]] Scene with_images(Scene scene, const ImageChoice& colours,

@@ -16,7 +16,7 @@ A part whose points are all on a line has no hull (E-HULL).
 With max_vertices, a simpler polytope replaces a hull that has more vertices, and encloses it.
 The stage starts from an oriented box and repeatedly cuts off the corner that is farthest from the hull.
 A box has one side on a face of the hull. The stage takes the smallest of up to 256 such boxes.
-A sphere is the smallest around the part. The flat faces of its mesh stay outside the sphere.
+A sphere is the smallest one around the part. The flat faces of its mesh stay outside the sphere.
 The report gives the centres, axes, sizes and radii.
 Exact predicates then test that all points are inside these shapes. If rounding moved a corner inward, the
 shape grows until all points are inside.

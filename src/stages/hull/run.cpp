@@ -15,7 +15,7 @@ class ShapeMaker {
     ShapeMaker(const HullOptions& o, Context& context, HullReport& report)
         : o_(o), context_(context), report_(report) {}
 
-    /// Adds the shape of the points to the parts. of: the part, whose place the shape takes.
+    /// Adds the shape of the points to the parts. of: the part whose node the shape uses.
     void add(std::span<const Vec3> points, const Part& of, std::vector<Part>& parts) {
         HullResult hull =
             convex_hull(points, {o_.shape, static_cast<std::size_t>(o_.max_vertices.value_or(0))});

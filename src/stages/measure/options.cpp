@@ -88,12 +88,11 @@ void verify_measure(const MeasureOptions& o, const Value& given, Problems& probl
                          fmt::format("a table of faces is a .csv file, found '{}'", path.text),
                          "use a name that ends in .csv, or per: part");
     if (o.per != Per::face && std::none_of(o.path.begin(), o.path.end(), is_table))
-        add_refusal(Refusal{"per", "'per' needs a path that ends in .csv or .jsonl"}, "measure", given,
-                    problems);
+        add_refusal(needs("per", "a path that ends in .csv or .jsonl"), "measure", given, problems);
     if (o.with && !compares(o))
-        add_refusal(Refusal{"with", "'with' needs the attribute deviation"}, "measure", given, problems);
+        add_refusal(needs("with", "the attribute deviation"), "measure", given, problems);
     if (given.find("missing") && o.attributes.empty())
-        add_refusal(Refusal{"missing", "'missing' needs attributes"}, "measure", given, problems);
+        add_refusal(needs("missing", "attributes"), "measure", given, problems);
 }
 
 StageFiles files_of_measure(const MeasureOptions& o) {

@@ -11,7 +11,7 @@ struct QuantityName {
     const Quantity* quantity = nullptr;
 };
 
-/// What a row of a table describes.
+/// The object that a row of a table describes.
 enum class Per { face, part, scene };
 
 struct MeasureOptions {

@@ -51,7 +51,7 @@ struct MeasureReport {
 void declare_measure_report(DeclareFields<MeasureReport>& d);
 
 void warn_of_inside_out(const std::string& part, const MassResult& mass, Context& context);
-/// If closed shells count space twice, replaces their solid by the right one, and warns (W-SHELLS).
+/// If closed shells count space twice, replaces their solid by the correct one, and warns (W-SHELLS).
 void correct_for_shells(const std::string& part, const Mesh& mesh, MassResult& mass, Context& context);
 /// The tables of measure: of faces, as CSV, or of models.
 struct MeasureTables {

@@ -4,8 +4,8 @@ namespace facetmill {
 
 const RegisterMessages merge_messages{
     {"W-MERGE-STAYS",
-     "`merge` leaves parts alone if merging would change what viewers show. These are animated and instanced "
-     "parts, levels of detail, and parts outside the scene that viewers show.",
+     "`merge` leaves parts unchanged if merging would change their look in viewers. These are animated and "
+     "instanced parts, levels of detail, and parts outside the scene that viewers show.",
      "Use `load: {path: ..., instances: expand}` to make a part of each instance. To merge the other parts "
      "in their rest pose, write the scene to PLY, which has no nodes, and load that."},
     {"W-VOLUME",

@@ -56,7 +56,7 @@ std::string name_beside(const std::vector<Part>& others, const std::string& want
 
 constexpr const char* placed_several_times = "placed several times by EXT_mesh_gpu_instancing";
 
-/// The reason why merging would change what viewers show of a part; null if it would not.
+/// The reason why merging would change the look of a part in viewers; null if it would not.
 const char* reason_to_stay(const io::PartView& view) {
     if (view.animated) return "animated";
     if (view.hidden) return "hidden";
@@ -65,7 +65,7 @@ const char* reason_to_stay(const io::PartView& view) {
     return nullptr;
 }
 
-/// [parts] true for the selected parts that become one. Warns about the others.
+/// [parts] true for the selected parts that are merged. Warns about the others.
 std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
     const std::vector<io::PartView> views = io::part_views(scene);
     std::vector<bool> chosen;

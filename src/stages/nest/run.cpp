@@ -58,7 +58,7 @@ void declare_part(DeclareFields<NestedPart>& d) {
 
 void declare_report(DeclareFields<NestReport>& d) {
     d.field("plates", &NestReport::plates, "The number of plates.");
-    d.list("parts", &NestReport::parts, "Each part with its place.", declare_part);
+    d.list("parts", &NestReport::parts, "Each part with its plate and position.", declare_part);
 }
 
 /// The axes of the ground and of up, a right-handed frame.
@@ -136,7 +136,7 @@ class Nesting {
                     "shrink them with transform: {fit: ..., shrink_only: true}");
     }
 
-    /// From the part's place in the world to its place on the plate.
+    /// From the part's position in the world to its position on the plate.
     Transform movement(const Box& box, const NestPlace& place) const {
         // On the ground, in coordinates of the plate: x, y.
         const double left = box.min[axes_.x];
@@ -175,13 +175,14 @@ struct NestStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override {
         const Value* sizes = given.is_map() ? given.find("plate") : &given;
         if (o.plate.empty() || o.plate.size() > 3)
-            problems.add(
-                mark_at(given, "plate"), "E-NEST",
-                fmt::format("nest: plate needs one, two or three lengths, found {}", o.plate.size()));
+            problems.add(mark_at(given, "plate"), "E-NEST",
+                         fmt::format("nest: plate needs one, two or three lengths, found {}", o.plate.size()),
+                         "write, for example, plate: [250mm, 210mm]");
         for (const Length& side : o.plate)
             if (!(side.amount > 0) && !(sizes && sizes->deferred))
                 problems.add(mark_at(given, "plate"), "E-NEST",
-                             fmt::format("nest: the lengths of plate must be above 0, found {}", side.text));
+                             fmt::format("nest: the lengths of plate must be above 0, found {}", side.text),
+                             "write, for example, plate: [250mm, 210mm]");
     }
 };
 

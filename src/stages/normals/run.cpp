@@ -78,7 +78,7 @@ void declare_report(DeclareFields<NormalsReport>& d) {
     d.list("parts", &NormalsReport::parts, "Each part.", declare_part).tallied("nothing to mend");
 }
 
-/// Replaces the normals of a part by those of another mesh. Returns the largest distance.
+/// Replaces the normals of a part by the normals of another mesh. Returns the largest distance.
 std::optional<double> take_normals(Part& part, const ReferenceMesh& other, Context& context) {
     const auto carried = other.carried_to(part);
     Attribute* own = part.mesh.find("NORMAL", Domain::wedge);

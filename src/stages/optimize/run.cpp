@@ -69,7 +69,7 @@ std::size_t draw_calls_of(const Scene& scene) {
     return calls;
 }
 
-/// The scene, and what is asked of its documents.
+/// The scene, and the requested changes of its documents.
 struct Optimization {
     Scene& scene;
     const OptimizeOptions& o;
@@ -510,7 +510,8 @@ Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeRepor
         optimize({scene, o, context, report});
     } catch (const Json::exception&) {
         throw Error(ErrorKind::malformed, "E-GLTF",
-                    "a member of the document has another type than glTF gives it", {}, context.where());
+                    "a member of the document does not have the type that glTF requires", {},
+                    context.where());
     }
     return scene;
 }

@@ -133,11 +133,10 @@ void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems)
             problems.add(given.mark, "E-FORMAT", fmt::format("probe cannot write '{}'", path.text),
                          "use a name that ends in .csv or .json");
     if (given.find("reverse") && o.along.empty())
-        add_refusal(Refusal{"reverse", "'reverse' needs along"}, "probe", given, problems);
+        add_refusal(needs("reverse", "along"), "probe", given, problems);
     if (o.segments || o.rays) return;
-    if (given.find("hits"))
-        add_refusal(Refusal{"hits", "'hits' needs segments or rays"}, "probe", given, problems);
-    if (o.face) add_refusal(Refusal{"face", "'face' needs segments or rays"}, "probe", given, problems);
+    if (given.find("hits")) add_refusal(needs("hits", "segments or rays"), "probe", given, problems);
+    if (o.face) add_refusal(needs("face", "segments or rays"), "probe", given, problems);
 }
 
 } // namespace facetmill

@@ -22,12 +22,12 @@ Faces without area have no weight.
 A vertex without neighbours does not move.
 
 The caps of cuts stay planar, unless you use caps: free.
-Other sharp edges become round unless you give feature_angle.
+Sharp edges become round unless you give feature_angle.
 
 Faces, wedges and topology do not change.
 Normals are recomputed, and tangents are made perpendicular to them.
 Position morph targets are relaxed together with the surface.
-Each target is relaxed as the surface that it represents.
+For this, the displaced surface of each target is relaxed.
 All other attributes are kept.
 The report gives the number of moved and fixed vertices, and the largest displacement in world
 units.

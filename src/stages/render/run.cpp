@@ -216,10 +216,11 @@ void declare_report(DeclareFields<RenderReport>& d) {
 
 void warn_of_no_values(const Quantity* quantity, const Picture& picture, Context& context) {
     if (!quantity || picture.range.known || picture.range.missing == 0) return;
-    context.warn("W-NO-VALUE",
-                 fmt::format("render: {} has no value anywhere: it has none {}", quantity->name,
-                             quantity->missing.empty() ? "without faces" : quantity->missing),
-                 "use thicken to give a sheet walls; clean: {holes: minimal}, then orient, mend a solid");
+    context.warn(
+        "W-NO-VALUE",
+        fmt::format("render: {} has no value at any face or vertex: it has none {}", quantity->name,
+                    quantity->missing.empty() ? "without faces" : quantity->missing),
+        "use thicken to give a sheet walls, or clean: {holes: minimal} and orient to repair a solid");
 }
 
 void warn_of_nothing(const Scene& scene, Context& context) {

@@ -84,8 +84,8 @@ void warn(const SectionReport& report, const std::function<bool()>& is_closed, C
     if (crossed > 0)
         context.warn("W-SECTION-CROSSES",
                      fmt::format("{} {} around counts as inside", counted(crossed, "contour"),
-                                 crossed == 1 ? "intersects itself; all that it winds"
-                                              : "intersect themselves; all that they wind"),
+                                 crossed == 1 ? "intersects itself: every region that it winds"
+                                              : "intersect themselves: every region that they wind"),
                      "use clean: {self_intersections: all} first, to unite overlapping bodies");
 }
 

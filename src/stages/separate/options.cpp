@@ -87,9 +87,9 @@ void declare_separate(Declare<SeparateOptions>& d) {
 
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
     if (given.find("attribute") && o.by != By::group)
-        add_refusal(Refusal{"attribute", "'attribute' needs by: group"}, "separate", given, problems);
+        add_refusal(needs("attribute", "by: group"), "separate", given, problems);
     if (given.find("cavities") && o.by != By::component)
-        add_refusal(Refusal{"cavities", "'cavities' needs by: component"}, "separate", given, problems);
+        add_refusal(needs("cavities", "by: component"), "separate", given, problems);
 }
 
 FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {

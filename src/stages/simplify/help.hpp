@@ -56,7 +56,7 @@ duplicate.
 
 Edges on boundaries, UV seams, sharp normal seams, and borders of materials and groups collapse only
 along these lines.
-Both sides stay matched.
+The two sides of a seam stay matched.
 A vertex where several such lines meet does not move.
 Boundaries at exactly the same position are also matched, within a part and between parts.
 For this, parts with coincident boundaries and the same node transform, attributes and shading are

@@ -100,9 +100,9 @@ void warn_of_stop(const Part& part, const SimplifyResult& r, AskedFor asked, Con
                                  counted(r.faces_after, "triangle"), held_by(r)),
                      hint_for(r));
     if (r.faces_before > 0 && r.faces_after == 0)
-        context.warn(
-            "W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
-            "ask for more faces, or preserve the topology (topology: keep, and another method than cluster)");
+        context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
+                     "ask for more faces, or preserve the topology (topology: keep, with a method other than "
+                     "cluster)");
 }
 
 void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_poses = 32, fewest_poses = 4;
 constexpr std::size_t posed_faces = 1000000; // of all compared surfaces together
-constexpr std::size_t samples = 2000;        // in each direction, besides all vertices, which move most
+constexpr std::size_t samples = 2000;        // in each direction; all vertices are measured as well
 
 } // namespace
 

@@ -16,7 +16,7 @@ The Euler number and manifoldness are preserved, except where two faces share tw
 New edges across such a corner coincide and have more than two faces (W-SPLIT-SHARED gives the
 count).
 The method varignon does not cut such corners, and diagonal uses the other diagonal if possible.
-Seams are preserved: each edge and pair of wedges gets one new wedge.
+Seams are preserved: a new point on an edge gets one wedge for each pair of wedges at its ends.
 
 Some methods cut to the centre of a face, which is the mean of its corners.
 In a concave face, they use a point that sees the whole face, if one exists.

@@ -102,7 +102,7 @@ void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSet
                                           : " stays unchanged, with " + faces;
     context.warn("W-SPLIT-STOPPED",
                  fmt::format("part '{}'{}: {}", part.name, left,
-                             narrow ? "a pass would make more of them" : "passes ended the split"),
+                             narrow ? "the next pass would make more of them" : "passes ended the split"),
                  "a split never makes an angle larger: use relax to even out faces, or simplify to remove "
                  "narrow ones");
 }

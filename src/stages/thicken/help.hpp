@@ -38,9 +38,9 @@ Cavities and pieces smaller than a cube with the thickness as its side are remov
 An open surface becomes the solid enclosed by its two sides and its walls.
 
 With drain, vertical holes connect each cavity with the outside.
-A hole starts at the lowest place in the cavity where a ball of its diameter fits, and passes through
+A hole starts at the lowest point of the cavity where a ball of its diameter fits, and passes through
 the wall below.
-Further holes take the next lowest places, at least two diameters apart.
+Further holes start at the next lowest points, at least two diameters apart.
 Lowest refers to the up axis of the scene, or to +Z if the up axis is unknown.
 
 Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and replaces

@@ -17,10 +17,9 @@ const RegisterMessages thicken_messages{
     {"W-THICKEN-THIN", "A wall is thinner than requested in some places.",
      "Split the faces there with `split` first, or accept the thin wall."},
     {"W-THICKEN-TOPOLOGY",
-     "`self_intersections: resolve` rebuilt a solid, and a side of its wall has another Euler number than "
-     "the "
-     "surface. The cavity has lost or gained holes, handles or pieces. This is right where a thin neck fills "
-     "up, but not where the walls have room.",
+     "`self_intersections: resolve` rebuilt a solid, and a side of its wall has a different Euler number "
+     "than the surface. The cavity has lost or gained holes, handles or pieces. This is right where a thin "
+     "neck fills up, but not where the walls have room.",
      "Look at the cavity with `section` or `render`, and give a smaller thickness if it is not as expected."},
 };
 

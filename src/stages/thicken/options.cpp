@@ -56,9 +56,9 @@ void declare_thickness(Declare<ThickenOptions>& d) {
 
 void declare_drain(Declare<DrainOptions>& d) {
     d.option("diameter", &DrainOptions::diameter, "The diameter of the holes.").above(0).required().primary();
-    d.option("count", &DrainOptions::count, "The maximum number of holes at the lowest places of a cavity.")
+    d.option("count", &DrainOptions::count, "The maximum number of holes at the lowest points of a cavity.")
         .between(1, 100);
-    d.option("vent", &DrainOptions::vent, "Adds a hole at the highest place of each cavity, for air.");
+    d.option("vent", &DrainOptions::vent, "Adds a hole at the highest point of each cavity, for air.");
 }
 
 } // namespace
@@ -84,7 +84,7 @@ void declare_thicken(Declare<ThickenOptions>& d) {
     d.option("sides", &ThickenOptions::sides, "The number of sides of each cylinder.").between(3, 360);
     declare_self_intersections(d);
     d.group("drain", &ThickenOptions::drain,
-            "Drills vertical holes through the wall at the lowest places of each cavity, so that resin or "
+            "Drills vertical holes through the wall at the lowest points of each cavity, so that resin or "
             "powder can leave it.",
             declare_drain)
         .also_called("drain_holes holes escape_holes", "(drain: 5mm)");
@@ -92,7 +92,7 @@ void declare_thicken(Declare<ThickenOptions>& d) {
 
 void verify_thicken(const ThickenOptions& o, const Value& given, Problems& problems) {
     if (o.drain && o.mode != Mode::surface)
-        add_refusal(Refusal{"drain", "'drain' needs mode: surface"}, "thicken", given, problems);
+        add_refusal(needs("drain", "mode: surface"), "thicken", given, problems);
 }
 
 } // namespace facetmill::thicken_stage

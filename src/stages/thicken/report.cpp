@@ -30,7 +30,7 @@ void declare_wall(DeclareFields<ThickenResult::Wall>& d) {
 void declare_hole(DeclareFields<DrainHole>& d) {
     d.field("from", &DrainHole::from, "The start of its axis, in the cavity.").unit("scene units");
     d.field("to", &DrainHole::to, "The end of its axis, outside.").unit("scene units");
-    d.field("vent", &DrainHole::vent, "Whether it is a vent at the highest place.");
+    d.field("vent", &DrainHole::vent, "Whether the hole is a vent at the highest point.");
 }
 
 /// Reads a member of the result of drain, if there is one.
@@ -155,7 +155,7 @@ void warn_of_walls(const Part& part, const ThickenResult& r, const WallAskedFor&
         resolves ? "" : "thicken: {self_intersections: resolve} rebuilds the solid without them; or ";
     if (r.unbalanced > 0)
         context.warn("W-THICKEN-OPEN",
-                     fmt::format("thicken: part '{}' is open at {} because its surface is not oriented there",
+                     fmt::format("thicken: part '{}' is open at {}, where its surface is not oriented",
                                  part.name, counted(r.unbalanced, "edge")),
                      "use orient first; a Moebius strip cannot be oriented");
     if (r.wall && r.wall->thinnest < 0.5 * thickness)

@@ -77,7 +77,7 @@ class SurfaceThickener {
         settings.to_world = part.transform;
         DrainResult drained = drain(std::move(known.result.mesh), settings);
         known.result.mesh = std::exchange(drained.mesh, {});
-        if (!drained.holes.empty()) // otherwise the mesh is as it was
+        if (!drained.holes.empty()) // otherwise the mesh is unchanged
             known.result.changes =
                 changes_in_sequence(known.result.changes, std::exchange(drained.changes, {}));
         known.drained = std::move(drained);

@@ -17,8 +17,8 @@ To process each tile, use foreach: {part: "*"}.
 With fit, each part has its own grid, which begins at its bounding box.
 The grid has the fewest tiles that fit into the given box. All tiles are equally long.
 Tiles are numbered layer by layer from bottom to top, such as NAME.04.x0.y1.z1.
-A part that fits stays whole.
-Each tile fits together with its pegs.
+A part that already fits is not cut.
+Each tile fits into the box together with its pegs.
 
 Pegs join each pair of neighbouring tiles.
 They point in the positive direction of their axis, so you can assemble the tiles row by row,

@@ -46,8 +46,8 @@ void verify_lengths(const char* name, const std::vector<Length>& lengths, std::s
                      "give one size, or one for each axis");
     for (const Length& size : lengths)
         if (!(size.amount > 0) && !(given && given->deferred))
-            problems.add(mark, "E-TILE",
-                         fmt::format("tile: '{}' must be above 0, found {}", name, size.text));
+            problems.add(mark, "E-TILE", fmt::format("tile: '{}' must be above 0, found {}", name, size.text),
+                         fmt::format("write, for example, {}: 200mm", name));
     if (lengths.size() > 1 && lengths.size() != axes)
         problems.add(mark, "E-TILE", fmt::format("tile: {} sizes for {} axes", lengths.size(), axes),
                      "give one size, or one for each axis");

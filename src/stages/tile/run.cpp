@@ -45,9 +45,9 @@ void declare_tile(DeclareFields<ReportedTile>& d) {
 }
 
 void declare_peg(DeclareFields<ReportedPeg>& d) {
-    d.field("low", &ReportedPeg::low, "The tile below it, along its axis. It has the peg.");
+    d.field("low", &ReportedPeg::low, "The tile before the peg, along the axis of the peg. It has the peg.");
     d.field("high", &ReportedPeg::high, "The tile above it.");
-    d.field("at", &ReportedPeg::at, "Its place in the plane between both tiles.").unit("scene units");
+    d.field("at", &ReportedPeg::at, "Its position in the plane between both tiles.").unit("scene units");
 }
 
 void declare_report(DeclareFields<TileReport>& d) {

@@ -8,7 +8,7 @@ inline constexpr const char* about =
 
 inline constexpr const char* details =
     R"(Each vertex, corner and face gets the interpolated value at the nearest point of the other mesh.
-Both meshes must be in the same place: use align before if they are not.
+Both meshes must be at the same position, so use align before if necessary.
 Corners on a seam of the scene get the value of their own side.
 
 By default, transfer takes all attributes except normals, tangents, morph targets and materials.

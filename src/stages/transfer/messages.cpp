@@ -3,7 +3,7 @@
 namespace facetmill {
 
 const RegisterMessages transfer_messages{
-    {"W-TRANSFER-NONE", "`transfer` found no attribute to take in the other mesh.",
+    {"W-TRANSFER-NONE", "`transfer` found no attribute in the other mesh that it can take.",
      "Run `facetmill info FILE` to list the attributes of the other mesh, and give their names as "
      "`attributes`."},
     {"W-TRANSFER-SEAMS",

@@ -79,7 +79,7 @@ bool is_taken(const Attribute& a, const TransferOptions& o) {
                        [&](const std::string& pattern) { return glob_matches(pattern, a.name); });
 }
 
-/// Puts the attribute into the mesh in place of those with its name.
+/// Puts the attribute into the mesh, and replaces attributes with the same name.
 void put_attribute(Mesh& mesh, Attribute a) {
     for (const Domain d : {Domain::vertex, Domain::wedge, Domain::face}) mesh.drop(a.name, d);
     for (Primitive& p : mesh.primitives)

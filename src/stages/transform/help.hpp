@@ -18,8 +18,8 @@ It refines the best directions in steps from 8 degrees down to half a degree.
 The report gives the overhanging area and the height before and after the turn.
 Mirrored faces keep their front side, as glTF requires.
 The ground is at 0 along the up axis, or along +Z if the up axis is unknown.
-The bounding box of the parts is the box of what viewers draw: skinned and morphed parts in their default
-pose, animated nodes at their largest scale, without hidden parts and lower levels of detail.
+The bounding box of the parts covers what viewers draw. Skinned and morphed parts count in their default
+pose, and animated nodes at their largest scale. Hidden parts and lower levels of detail do not count.
 A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.
 Cameras, lights, empty nodes and animations of a glTF file move with its parts, if all of its parts move.)";
 

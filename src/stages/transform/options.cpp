@@ -102,8 +102,9 @@ void declare_transform(Declare<TransformOptions>& d) {
 }
 
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {
-    const auto refuse = [&](const char* name, std::string message) {
-        problems.add(mark_at(given, name), "E-TRANSFORM", "transform: " + std::move(message));
+    const auto refuse = [&](const char* name, std::string message, std::string hint = {}) {
+        problems.add(mark_at(given, name), "E-TRANSFORM", "transform: " + std::move(message),
+                     std::move(hint));
     };
     if (!o.translate.empty() && o.translate.size() != 3)
         refuse("translate", fmt::format("translate needs three lengths, found {}", o.translate.size()));
@@ -124,15 +125,14 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
     const Value* fit = given.find("fit");
     for (const Length& side : o.fit)
         if (!(side.amount > 0) && !(fit && fit->deferred))
-            refuse("fit", fmt::format("the lengths of fit must be above 0, found {}", side.text));
+            refuse("fit", fmt::format("the lengths of fit must be above 0, found {}", side.text),
+                   "write, for example, fit: 200mm");
     if (given.find("pivot") && o.scale.empty() && !o.rotate && o.fit.empty() && o.orient_for == Purpose::none)
-        add_refusal(Refusal{"pivot", "'pivot' needs scale, rotate, orient_for or fit"}, "transform", given,
-                    problems);
+        add_refusal(needs("pivot", "scale, rotate, orient_for or fit"), "transform", given, problems);
     if (o.shrink_only && o.fit.empty())
-        add_refusal(Refusal{"shrink_only", "'shrink_only' needs fit"}, "transform", given, problems);
+        add_refusal(needs("shrink_only", "fit"), "transform", given, problems);
     if (given.find("overhang_angle") && o.orient_for == Purpose::none)
-        add_refusal(Refusal{"overhang_angle", "'overhang_angle' needs orient_for: printing"}, "transform",
-                    given, problems);
+        add_refusal(needs("overhang_angle", "orient_for: printing"), "transform", given, problems);
     if (o.rotate && !(length(o.rotate->axis) > 0))
         refuse("rotate", "the axis of the rotation has zero length");
 }

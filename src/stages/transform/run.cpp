@@ -25,7 +25,7 @@ Transform uniform(double factor) {
     return t;
 }
 
-/// The reason why baking would change what viewers show; null if it would not.
+/// The reason why baking would change the look in viewers; null if it would not.
 const char* reason_to_keep_node(const io::PartView& view, bool uneven_thickness) {
     if (view.animated) return "is animated";
     if (view.instanced) return "has several instances";

@@ -275,9 +275,9 @@ class Judge {
     KnownFailures known_, failed_;
     ValidateReport report_;
     std::size_t waived_ = 0, waived_locations_ = 0;
-    std::string file_;                              ///< that is judged; empty: the scene
+    std::string file_;                              ///< the judged file; empty: the scene
     bool any_ = false;                              ///< a failure was not waived
-    bool flagged_ = false;                          ///< the same, in the scene that is judged
+    bool flagged_ = false;                          ///< a failure of the judged scene was not waived
     bool marked_ = false;                           ///< the copy is written
     bool any_known_ = false;                        ///< a failure was already known
     std::vector<std::vector<std::uint32_t>> flags_; ///< flags of the parts' faces

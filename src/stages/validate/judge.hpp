@@ -36,9 +36,9 @@ struct ValidateReport {
 
 /// Adds a check to the context for every assertion and subject. Files written from the current scene are read
 /// back and judged; if none holds all its parts, the scene itself is judged. Limits of files apply to every
-/// file on the way to the stage. Failed checks have evidence: the first
-/// locations, with the part's face numbers, and the total. Failures of the baseline are waived while they
-/// get no worse. The scene is unchanged afterwards. Throws a usage error (E-UNIT) for lengths, the errors of
+/// file written before the stage, along its branch. Failed checks have evidence: the first locations, with
+/// the part's face numbers, and the total. Failures of the baseline are waived while they get no worse. The
+/// scene is unchanged afterwards. Throws a usage error (E-UNIT) for lengths, the errors of
 /// KnownFailures::read, and an output error for the copy.
 [[nodiscard]] ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 

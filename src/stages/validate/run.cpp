@@ -57,7 +57,7 @@ std::vector<std::string> lines_of(const ValidateReport& r) {
     if (waived_locations + fixed_locations > 0)
         text += fmt::format("; {} known locations waived", waived_locations);
     if (fixed_locations > 0) text += fmt::format(", {} fixed", fixed_locations);
-    // With new failures an update would waive them.
+    // If new failures exist, an update would waive them too.
     if (!r.fails) text += ": use update_baseline to remove them from the baseline";
     return {text};
 }

@@ -68,7 +68,7 @@ void tell_written(const io::Outputs::File& main, std::size_t files, const std::s
                    .records = files});
 }
 
-/// Writes the cells as a tileset. Each tile is staged as soon as it is made, to limit memory.
+/// Writes the cells as a tileset. Each tile is staged once it is made, to limit memory.
 void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, CellFlow& flow,
                    const Scene& outline, WriteReport& report, Context& context) {
     const std::filesystem::path path = o.path.text, folder = path.parent_path();

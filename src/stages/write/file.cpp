@@ -35,8 +35,8 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over
-/// the longest side of what is drawn, in the largest pose. The minimum is 10 bits, about a thousandth of the
+/// The bits of each part: the fewest whose steps in the world are no larger than the steps of `bits` over the
+/// longest side of the drawn contents, in the largest pose. The minimum is 10 bits, about a thousandth of the
 /// part, or `bits` if fewer.
 std::vector<int> bits_of_scene(const Scene& scene, const std::vector<io::PartView>& views, double whole,
                                int bits) {

@@ -48,8 +48,8 @@ bool bits_are_given(const io::WriteSettings& s);
 /// apply to the scene or to each mesh. Bits that were not given grow until vertices stay distinct.
 void choose_bits(io::WriteSettings& s, const io::Codec& codec, const Scene& scene, WriteReport& report);
 
-/// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go
-/// into the same folder. Warns if the file read back is less sound than the scene. written: it has a file.
+/// Stages the files and reads the first file back. The first gets the pipeline's path, and the others go into
+/// the same folder. Warns if the file read back is less sound than the scene. written: must contain a file.
 [[nodiscard]] WrittenScene stage_files(const io::Written& written, const std::filesystem::path& path,
                                        const io::Codec& codec, const Scene& scene,
                                        const io::WriteSettings& settings, Context& context);

@@ -12,7 +12,7 @@ namespace facetmill::write_stage {
 
 namespace {
 
-/// The steps that keep a mesh fit. on_grid: of a file with a grid, to which new points cannot be moved.
+/// The steps that keep a mesh fit. on_grid: for a file with a grid, on which new points cannot be placed.
 CleanSettings settings_for(const Purpose& purpose, bool on_grid) {
     CleanSettings s;
     s.single = !on_grid;
@@ -26,7 +26,7 @@ CleanSettings settings_for(const Purpose& purpose, bool on_grid) {
     return s;
 }
 
-/// Moves vertices to the nearest points of the grid, as the file will. Ties may be rounded otherwise there.
+/// Moves vertices to the nearest points of the grid, as the file will. The file may round ties differently.
 void round_to_grid(Mesh& mesh, const io::WriteSettings& settings, std::size_t part) {
     const Box box = mesh.bounds();
     if (box.empty()) return;
@@ -70,8 +70,8 @@ std::vector<std::optional<Mesh>> make_fit(Scene& scene, const Purpose& purpose, 
         budget = r.budget;
         const std::size_t repairs = r.counts.total() - r.counts.rounded_vertices;
         if (repairs == 0) continue;
-        context.say(fmt::format("'{}' fits {} with the rounding of the file after {}", part.name,
-                                purpose.name, counted(repairs, "repair")));
+        context.say(fmt::format("'{}' fits {} with the file's rounding after {}", part.name, purpose.name,
+                                counted(repairs, "repair")));
         context.attribute_changes(part, r.changes);
         replaced[k] = std::exchange(part.mesh, std::move(r.mesh));
         part.changed = true;

@@ -20,7 +20,7 @@ struct EvenGrid {
 [[nodiscard]] DistinctParts parts_sharing_grids(const Scene& scene, const std::vector<io::PartView>& views);
 
 struct BitLimits {
-    double whole = 0;   ///< the longest side of what is drawn (drawn_bounds)
+    double whole = 0;   ///< the longest side of the drawn contents (drawn_bounds)
     int usual = 14;     ///< divide it
     int most = 16;      ///< of a part
     bool draco = false; ///< stores each part's origin as float32, and bits at no cost

@@ -9,8 +9,8 @@ const RegisterMessages write_messages{
      "A glTF file is not compressed, because Draco in glTF compresses only faces, and the scene has none.",
      "Compress points and lines with `write: {meshopt: true}`."},
     {"W-ORIGIN",
-     "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more than "
-     "position it.",
+     "A part keeps its origin although `write: {origin: ...}` gives a different one, because it has a skin, "
+     "an animation or instances.",
      "If you need the new origin, use `merge` before `write`, because it removes skins and animations."},
     {"W-ROUNDED",
      "Rounding or a limit of the format gave a written file more defects than the scene. Or it moved points "

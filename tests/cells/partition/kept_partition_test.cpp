@@ -75,7 +75,7 @@ TEST_CASE("a kept partition gives what a new one gives", "[cells]") {
         const KeptRun other = run_kept(path, kept, 'b');
         REQUIRE(other.told.size() == 2);
         CHECK(other.told[0].find("of other options: they are made again") != std::string::npos);
-        CHECK(other.told[1].find("of other inputs or options removed") != std::string::npos);
+        CHECK(other.told[1].find("from other inputs or options removed") != std::string::npos);
         CHECK(is_same(other.result, without.result));
     }
 }

@@ -266,7 +266,7 @@ TEST_CASE("clean fills planar holes with planar patches, and says which are not"
     CHECK(r.counts.filled_holes == 0);
     REQUIRE(r.not_done.size() == 1);
     CHECK(r.not_done[0].step == "holes");
-    CHECK(r.not_done[0].why.starts_with("its boundary loop is not planar, by "));
+    CHECK(r.not_done[0].why.starts_with("its boundary loop is not planar: it deviates by "));
 }
 
 TEST_CASE("clean fills holes that are planar but for the rounding of their file", "[geometry]") {

@@ -191,5 +191,5 @@ TEST_CASE("crumpling refuses what it cannot do", "[geometry]") {
           "stage [E-TRANSFORM] crumple: the part's transform flattens it, so it has no inverse | apply or "
           "repair the transform first");
     CHECK(test::failure([] { crumple(shapes::cube(), {.amplitude = -1}); }) ==
-          "usage [E-RANGE] crumple: amplitude is at least 0, not -1");
+          "usage [E-RANGE] crumple: amplitude must be at least 0, not -1");
 }

@@ -155,13 +155,13 @@ TEST_CASE("shapes out of range are refused", "[geometry]") {
     GenerateSettings s = of(Shape::torus);
     s.minor_radius = 1;
     CHECK(test::failure([&] { generate(s); }) ==
-          "usage [E-RANGE] generate: minor_radius is below the radius 1, "
-          "not 1 | use a smaller minor_radius or a larger radius");
+          "usage [E-RANGE] generate: minor_radius must be below the radius 1, not 1 | use a smaller "
+          "minor_radius or a larger radius");
     s = of(Shape::sphere);
     s.radius = 1e300;
     CHECK(test::failure([&] { generate(s); }) ==
-          "usage [E-RANGE] generate: radius is at most 1e+37, because files hold float32, not 1e+300 | use a "
-          "smaller length, or a larger unit");
+          "usage [E-RANGE] generate: radius must be at most 1e+37, because files hold float32, not 1e+300 | "
+          "use a smaller length, or a larger unit");
     s = of(Shape::menger);
     s.subdivisions = 5;
     CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: subdivisions is 1 to 4, not 5");
@@ -170,7 +170,7 @@ TEST_CASE("shapes out of range are refused", "[geometry]") {
     CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: rings is at least 2, not 1");
     s.rings = 1 << 20;
     s.segments = 1 << 20;
-    CHECK(test::failure([&] { generate(s); }) == "limit [E-LIMIT] generate: the shape would have about "
-                                                 "2.2e+12 faces, at most 7.16e+08 are possible | ask for "
-                                                 "fewer faces, cells or subdivisions");
+    CHECK(test::failure([&] { generate(s); }) ==
+          "limit [E-LIMIT] generate: the shape would have about 2.2e+12 faces, but at most 7.16e+08 are "
+          "possible | ask for fewer faces, cells or subdivisions");
 }

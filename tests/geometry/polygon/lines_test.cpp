@@ -42,7 +42,7 @@ TEST_CASE("hatch lines pass through multiples of the spacing and run back and fo
 
 TEST_CASE("hatching finer than the limit is refused", "[geometry]") {
     CHECK(test::failure([] { hatch(rings_of({square(0, 0, 3)}), {.spacing = 1e-9}); }) ==
-          "limit [E-HATCH] hatching would take about 4242640687 lines, and at most 1000000 are drawn | "
+          "limit [E-HATCH] hatching would take about 4242640687 lines, but at most 1000000 are possible | "
           "choose a larger spacing");
 }
 

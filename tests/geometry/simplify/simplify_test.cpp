@@ -455,10 +455,11 @@ TEST_CASE("levels of detail are one chain", "[geometry]") {
     // The first level equals the result of a separate run.
     CHECK(test::same(levels[1].mesh, simplify(m, {.ratio = 0.5}).mesh));
     CHECK(simplify_levels(shapes::cube(), at_levels({0.5, 0.25}))[1].stop == Stop::stuck);
-    CHECK(test::failure([] {
-              simplify_levels(shapes::cube(), at_levels({0.25, 0.5}));
-          }) ==
-          "usage [E-RANGE] simplify: lods: ratios go from fine to coarse | for example [100%, 50%, 10%]");
+    CHECK(
+        test::failure([] {
+            simplify_levels(shapes::cube(), at_levels({0.25, 0.5}));
+        }) ==
+        "usage [E-RANGE] simplify: lods: ratios must go from fine to coarse | for example [100%, 50%, 10%]");
 }
 
 TEST_CASE("simplification refuses to guess a target", "[geometry]") {

@@ -206,8 +206,10 @@ TEST_CASE("cluster and levels refuse what they cannot do", "[geometry]") {
     CHECK(refusal({.method = Method::cluster, .lock = {.boundary = true}, .faces = 5})
               .find("cannot lock vertices") != std::string::npos);
     CHECK(refusal({.method = Method::constrained, .topology = Topology::allow, .faces = 5}) ==
-          "usage [E-CONFLICT] simplify: constrained keeps the topology | use the method quadric");
-    CHECK(refusal({.weights = {.uv = -1}, .faces = 5}).find("weights are at least 0") != std::string::npos);
+          "usage [E-CONFLICT] simplify: the method constrained always keeps the topology | use the method "
+          "quadric");
+    CHECK(refusal({.weights = {.uv = -1}, .faces = 5}).find("weights must be at least 0") !=
+          std::string::npos);
     SimplifySettings levels;
     levels.method = Method::cluster;
     levels.levels = {0.5};

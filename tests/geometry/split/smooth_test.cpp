@@ -150,10 +150,12 @@ TEST_CASE("smooth methods interpolate wedges along seams and recompute normals",
 TEST_CASE("smooth methods refuse what is not manifold, with the place", "[geometry]") {
     CHECK(test::failure([] { split(shapes::fan3(), passes_of(SplitMethod::loop)); }) ==
           "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has "
-          "3 faces | clean repairs non-manifold edges and vertices; midpoint splits them as they are");
+          "3 faces | use clean to repair non-manifold edges and vertices, or the method midpoint, which "
+          "splits any mesh");
     CHECK(test::failure([] { split(shapes::hourglass(), passes_of(SplitMethod::sqrt3)); }) ==
           "stage [E-MANIFOLD] split: sqrt3 needs a manifold, oriented mesh; 2 fans of faces meet only at "
-          "vertex 0 | clean repairs non-manifold edges and vertices; midpoint splits them as they are");
+          "vertex 0 | use clean to repair non-manifold edges and vertices, or the method midpoint, which "
+          "splits any mesh");
     CHECK(test::failure([] {
               split(shapes::moebius(9), passes_of(SplitMethod::catmull_clark));
           }).find("oriented inconsistently") != std::string::npos);

@@ -173,9 +173,8 @@ TEST_CASE("an empty mesh and no passes give back what came", "[geometry]") {
 TEST_CASE("a result beyond 2^31 corners is refused before it is built", "[geometry]") {
     CHECK(test::failure([] {
               split(shapes::cube(), {SplitMethod::midpoint, 14, 2});
-          }) == "limit [E-LIMIT] split: the result would have about 9.66e+09 corners, at most 2147483648 are "
-                "possible | "
-                "use fewer passes, a coarser grid or a longer max_edge");
+          }) == "limit [E-LIMIT] split: the result would have about 9.66e+09 corners, but at most 2147483648 "
+                "are possible | use fewer passes, a coarser grid or a longer max_edge");
 }
 
 TEST_CASE("faces that a method does not know are refused by name", "[geometry]") {

@@ -226,9 +226,8 @@ TEST_CASE("cuts at the widest angle take no target", "[geometry]") {
     s.max_edge = 0.5;
     const Mesh needle = faces({{0, 0, 0}, {10, 0, 0}, {0.2, 0.1, 0}}, {{0, 1, 2}});
     CHECK(test::failure([&] { split(needle, s); }) ==
-          "usage [E-CONFLICT] split: 'cut: widest-angle' does not go with the target 'max_edge', which its "
-          "cuts may "
-          "never reach | leave out cut, or give passes and no target");
+          "usage [E-CONFLICT] split: 'cut: widest-angle' cannot be combined with the target 'max_edge', "
+          "because its cuts may never reach it | leave out cut, or give passes and no target");
     s.cut = SplitSettings::Cut::longest_edge;
     s.passes = 100;
     const SplitResult r = split(needle, s);

@@ -318,11 +318,10 @@ TEST_CASE("what MTL cannot say of a material is said", "[io]") {
     CHECK(told(R"("alphaMode":"MASK","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.25]})") ==
           "W-MTL MTL cannot represent all of materials: of m: alphaMode MASK (it is blended)\n");
     CHECK(told(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}}})") ==
-          start +
-              "clearcoatTexture (MTL has no map of it)\nW-MTL MTL cannot represent all of materials: of m: "
-              "KHR_materials_clearcoat (MTL has no such word)\n");
+          start + "clearcoatTexture (MTL has no map of it)\nW-MTL MTL cannot represent all of materials: of "
+                  "m: KHR_materials_clearcoat (MTL has no statement for it)\n");
     CHECK(told(R"("extensions":{"KHR_materials_specular":{"specularColorFactor":[0.5,1,1]}})")
-              .find("of m: specularColorFactor (it goes with neither Pr nor Pm)") != std::string::npos);
+              .find("of m: specularColorFactor (MTL cannot combine it with Pr and Pm)") != std::string::npos);
     // Properties that remain visible are written.
     const io::Written masked = obj_of(dir, std::string(R"("alphaMode":"MASK",)") + textured, "alpha.png");
     CHECK(warnings_of(masked).find("W-MTL") == 0);

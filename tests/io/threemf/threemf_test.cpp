@@ -275,7 +275,7 @@ TEST_CASE("objects of a 3MF that are not models are left out and named", "[io]")
     CHECK(some.log.warnings[0].message ==
           "objects that are not models are skipped: 1 'other', 1 'solidsupport', 1 'support', 1 'surface'");
     CHECK(some.log.warnings[1].id == "W-3MF");
-    CHECK(some.log.warnings[1].message == "it builds object 3, whose type is 'other', which it must not");
+    CHECK(some.log.warnings[1].message == "it builds object 3 of type 'other', which 3MF forbids");
     const Loaded surface = load(archive(model(object(4, "surface"), R"(<item objectid="4"/>)")));
     CHECK(surface.scene.parts.size() == 1);
     CHECK(surface.log.warnings.at(0).message ==
@@ -452,11 +452,11 @@ TEST_CASE("broken rules of 3MF that leave a mesh are named", "[io]") {
         return loaded.log.warnings[0].message;
     };
     CHECK(fault(archive(model(R"(<object id="1" pid="9" pindex="0">)" + one_triangle + "</object>", item))) ==
-          "object 1 refers to the properties 9, which do not exist: it has no colour there");
+          "object 1 refers to the properties 9, which do not exist, so these faces have no colour");
     CHECK(fault(archive(model(R"(<m:colorgroup id="1"><m:color color="#00FF00"/></m:colorgroup>)" + plain,
                               item))) == "line 2: two resources have the id 1, which must be unique");
     CHECK(fault(archive(model(plain, ""))) ==
-          "it builds nothing: the objects that no other object uses are read");
+          "it builds no objects, so all objects that no other object uses are read");
     const std::string type = R"(Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")";
     const std::string relations =
         fmt::format(R"(<Relationships><Relationship Id="a" Target="/3D/3dmodel.model" {0}/>

@@ -325,11 +325,11 @@ TEST_CASE("subtree files that are too short, lie or ask for too much are refused
     };
     CHECK(has(refused("subt"), "has 24 bytes"));
     CHECK(has(refused(std::string("subt\2\0\0\0", 8) + std::string(16, 0)), "version 1"));
-    CHECK(has(refused(std::string("subt\1\0\0\0", 8) + std::string(16, '\xff')), "follow its header"));
+    CHECK(has(refused(std::string("subt\1\0\0\0", 8) + std::string(16, '\xff')), "its header announces"));
     CHECK(has(refused("{"), "E-JSON"));
     CHECK(has(refused("{}"), "tileAvailability"));
     CHECK(has(refused(json(R"({"constant": 0})")), "leaves out the first tile"));
-    CHECK(has(refused(json(R"({"bitstream": 0})")), "has 0 bytes, 5 places need 1"));
+    CHECK(has(refused(json(R"({"bitstream": 0})")), "has 0 bytes, but 5 tiles need 1"));
     CHECK(has(refused(json(R"({"bitstream": 1})")), "E-GLTF"));
     CHECK(has(refused(json(R"({"constant": 2})")), "E-GLTF"));
     CHECK(has(refused(json(R"({"constant": 1})")), "E-FILE")); // the subtrees below

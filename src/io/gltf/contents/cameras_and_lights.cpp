@@ -73,8 +73,8 @@ void put_above(Json& document, std::size_t node, const Transform& local) {
     put_matrix(document["nodes"][above], local);
 }
 
-/// [nodes] nodes that draw nothing, also below them, and that no joint or animation moves: the places to
-/// which applications attach things.
+/// [nodes] nodes that neither draw anything nor have a descendant that does, and that no joint or animation
+/// moves. Applications attach things to these places.
 std::vector<bool> places(const Json& document, const std::vector<NodeFrame>& frames,
                          const std::set<std::size_t>& animated) {
     std::vector<bool> draws(frames.size()), moved_by_others(frames.size());
@@ -103,7 +103,8 @@ Transform without_growth(Transform world, double growth) {
     return world;
 }
 
-/// Moves the nodes of cameras, lights and places. All other nodes keep their places in the world.
+/// Moves the nodes of cameras and lights, and the nodes in `places`. All other nodes keep their positions in
+/// the world.
 void move_nodes(Json& document, const Transform& by, double growth) {
     const auto frames = node_frames(document);
     const auto animated = animated_nodes(document);

@@ -1,5 +1,5 @@
 #pragma once
-// What it costs to draw a file: draw calls and pixels of images.
+// The cost of drawing a file: draw calls and pixels of images.
 
 #include "io/bytes.hpp"
 
@@ -13,7 +13,7 @@ struct DrawCosts {
     std::uint64_t pixels = 0;     ///< of the PNG, JPEG and WebP images in the file
 };
 
-/// Of a GLB, a glTF or an image; 0 for other and broken files.
+/// The costs of a GLB, a glTF or an image; 0 for other and broken files.
 [[nodiscard]] DrawCosts draw_costs(const std::string& name, Span bytes);
 
 } // namespace facetmill::io

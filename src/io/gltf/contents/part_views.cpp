@@ -216,7 +216,7 @@ void add_instances(const Scene& scene, const std::vector<PartView>& views, Box& 
     const bool any = std::any_of(views.begin(), views.end(),
                                  [](const PartView& view) { return view.instanced && view.is_drawn(); });
     if (!any) return;
-    std::size_t exact = std::size_t{1} << 22; // vertices at instances; the others by the corners of their box
+    std::size_t exact = std::size_t{1} << 22; // vertices to transform; beyond it, only corners of boxes
     std::map<std::size_t, Box> boxes;         // by part
     for_each_place_of_instances(scene, [&](std::size_t i, const Transform& place, double) {
         if (!views[i].is_drawn()) return;

@@ -172,8 +172,7 @@ class LookBuilder {
 
     void warn(const std::string& place, const std::string& why, const std::string& hint) {
         warnings_.push_back({Severity::warning, "W-TEXTURE", fmt::format("{}: not drawn: {}", place, why),
-                             file_mark(known_.document->name),
-                             hint + "; the plain colour is drawn in its place"});
+                             file_mark(known_.document->name), hint + "; the plain colour is drawn instead"});
     }
     /// Warns about an image, by its index and, if it has one, its name.
     void warn(std::size_t index, const std::string& why, const std::string& hint) {

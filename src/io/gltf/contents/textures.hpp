@@ -15,14 +15,14 @@ namespace facetmill::io {
 
 /// How all materials of a document use an image.
 struct ImageUse {
-    bool colours = false;              ///< red, green and blue in sRGB
-    bool normals = false;              ///< a tangent-space normal map
-    bool numbers = false;              ///< metalness, roughness, occlusion, thickness ...
-    bool coverage = false;             ///< alpha is coverage, in a material that masks or blends
-    bool alpha = false;                ///< alpha is used, as coverage or as a number
-    bool nearest = false;              ///< sampled without interpolation, for example a palette
-    bool fallback = false;             ///< used by readers that lack an extension with another image
-    bool held = false;                 ///< used outside the selected materials, so it must stay unchanged
+    bool colours = false;  ///< red, green and blue in sRGB
+    bool normals = false;  ///< a tangent-space normal map
+    bool numbers = false;  ///< metalness, roughness, occlusion, thickness ...
+    bool coverage = false; ///< alpha is coverage, in a material that masks or blends
+    bool alpha = false;    ///< alpha is used, as coverage or as a number
+    bool nearest = false;  ///< sampled without interpolation, for example a palette
+    bool fallback = false; ///< the fallback for readers without the extension that gives another image
+    bool held = false;     ///< used outside the selected materials, so it must stay unchanged
     std::vector<std::string> textures; ///< names in materials, such as "baseColorTexture", each once
 
     /// Adds the uses of other.

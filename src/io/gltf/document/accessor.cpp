@@ -50,7 +50,8 @@ std::size_t stride_of(const Source& source, const JsonCursor& accessor, std::siz
     const auto stride = item(source.json(), "bufferViews", view).find("byteStride");
     if (!stride) return element;
     const std::size_t bytes = stride->natural(65536);
-    if (bytes < element) stride->fail(fmt::format("{} bytes are fewer than an element's {}", bytes, element));
+    if (bytes < element)
+        stride->fail(fmt::format("{} bytes are fewer than the {} bytes of an element", bytes, element));
     return bytes;
 }
 
@@ -142,7 +143,8 @@ Span Source::range(const JsonCursor& owner) const {
 void Source::need(double bytes) {
     needed_ += bytes;
     if (is_much_memory(needed_))
-        require_memory(needed_, "what the document makes of its buffers", "use a machine with more memory");
+        require_memory(needed_, "the data decoded from the document's buffers",
+                       "use a machine with more memory");
 }
 
 bool Source::without_bytes(std::size_t index) const {
@@ -175,8 +177,8 @@ Accessor accessor(const Source& source, const JsonCursor& reference) {
     Accessor a{place, place.at("count").natural(), static_cast<int>(place.at("componentType").natural(65535)),
                components_of(type), place.boolean_or("normalized", false)};
     if (size_of(a.component_type) == 0)
-        place.at("componentType").fail(fmt::format("{} is not a type of numbers", a.component_type));
-    if (a.components == 0) place.at("type").fail(fmt::format("\"{}\" is not a type of elements", type));
+        place.at("componentType").fail(fmt::format("{} is not a component type", a.component_type));
+    if (a.components == 0) place.at("type").fail(fmt::format("\"{}\" is not an element type", type));
     return a;
 }
 
@@ -193,7 +195,7 @@ AttributeData decode(Source& source, const Accessor& a) {
     } else if (a.count > max_zeros / size) {
         throw Error(
             ErrorKind::limit, "E-LIMIT",
-            fmt::format("{}: {} elements of zeros, without bytes in the file", a.place.path(), a.count));
+            fmt::format("{}: {} elements without bytes in the file are too many", a.place.path(), a.count));
     }
     std::visit(
         [&](auto& numbers) {

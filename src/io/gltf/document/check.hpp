@@ -37,8 +37,8 @@ void check_members(const Json& document, Breaches& breaches);
 /// Checks the rules between objects. The members must have been checked.
 void check_rules(const Json& json, Breaches& breaches);
 
-/// Sets the missing and wrong minima and maxima of accessors from their numbers; those without bytes, and of
-/// Draco, stay. Breaches receive the wrong ones. Returns true if the document has changed.
+/// Sets missing and wrong minima and maxima of accessors from their numbers. Accessors without bytes and
+/// accessors of Draco keep theirs. Breaches receive the wrong ones. Returns true if the document has changed.
 bool correct_bounds(Json& document, Source& source, Breaches& breaches);
 
 } // namespace facetmill::io::gltf

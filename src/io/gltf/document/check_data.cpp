@@ -91,7 +91,7 @@ class DataRules {
             const auto [known, fresh] = view_use.try_emplace(v, use);
             const bool both = (known->second == Use::vertices) != (use == Use::vertices) ||
                               (known->second == Use::indices) != (use == Use::indices);
-            if (!fresh && both) document_.breaches.add(reference, "its view has data of another use, too");
+            if (!fresh && both) document_.breaches.add(reference, "its view also has data for another use");
             if (use != Use::vertices) return;
             if (number_in(accessor, "byteOffset", 0) % 4 != 0 || number_in(view, "byteOffset", 0) % 4 != 0)
                 document_.breaches.add(reference, "the offset of vertices is not a multiple of 4 bytes");

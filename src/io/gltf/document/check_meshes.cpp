@@ -33,8 +33,8 @@ class MeshRules {
             (numbered && !number.empty() && (number == "0" || number[0] != '0') &&
              std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }));
         if (!good)
-            return document_.breaches.add(place,
-                                          "no attribute of glTF has this name; own names begin with _");
+            return document_.breaches.add(
+                place, "glTF has no attribute with this name; names of custom attributes begin with _");
         const Json& accessor = document_.at("accessors", place.json());
         const std::string format = format_of(accessor);
         const std::string type = accessor["type"];
@@ -67,7 +67,7 @@ class MeshRules {
             const auto own = primitives.at(p).find("targets");
             if ((own ? own->size() : 0) != targets)
                 document_.breaches.add(primitives.at(p),
-                                       "has another number of morph targets than the first primitive");
+                                       "has a different number of morph targets than the first primitive");
         }
         if (const auto weights = place.find("weights"); weights && weights->size() != targets)
             document_.breaches.add(
@@ -85,7 +85,7 @@ class MeshRules {
                 const JsonCursor reference(of, {&key, 0}, value);
                 attribute(reference, key, target);
                 if (number_in(document_.at("accessors", value), "count") != count)
-                    document_.breaches.add(reference, "has another count than the other attributes");
+                    document_.breaches.add(reference, "has a different count than the other attributes");
                 if (target && !all.contains(key))
                     document_.breaches.add(reference, "moves an attribute that the primitive does not have");
             }
@@ -94,7 +94,7 @@ class MeshRules {
         if (const auto targets = place.find("targets"))
             for (std::size_t t = 0; t < targets->size(); ++t) check(targets->at(t), true);
         if (sets(all, "JOINTS_") != sets(all, "WEIGHTS_"))
-            document_.breaches.add(attributes, "has another number of JOINTS than of WEIGHTS");
+            document_.breaches.add(attributes, "has different numbers of JOINTS and WEIGHTS");
         if (all.contains("TANGENT") && !all.contains("NORMAL"))
             document_.breaches.add(attributes, "has a TANGENT without a NORMAL");
         count_of_corners(place, count);

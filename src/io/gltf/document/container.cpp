@@ -56,7 +56,7 @@ Chunks split_glb(Span bytes) {
                     fmt::format("at byte 4: expected GLB version 2, found version {}", version),
                     version == 1 ? hint_for_version_1 : "");
     if (length > bytes.size())
-        fail(8, fmt::format("the file says that it has {} bytes, but it has {}", length, bytes.size()));
+        fail(8, fmt::format("the header gives {} bytes, but the file has {}", length, bytes.size()));
     Chunks chunks;
     for (std::size_t at = 12, number = 0; at < length; ++number) {
         if (length - at < 8) {
@@ -178,7 +178,7 @@ Bytes resolve_with_tinygltf(const JsonCursor& buffer, const std::string& uri, Ne
                     fmt::format("{}.uri: the file \"{}\" cannot be read: {}", buffer.path(),
                                 neighbour.path.string(), std::strerror(neighbour.error)));
     if (!loaded || model.buffers.size() != 1)
-        buffer.fail(fmt::format("expected {} bytes, and {} does not hold as many", neighbour.bytes,
+        buffer.fail(fmt::format("expected {} bytes, but {} has fewer", neighbour.bytes,
                                 is_data_uri(uri) ? "the data URI" : "the file \"" + uri + "\""),
                     "E-BUFFER");
     const auto& data = model.buffers[0].data;
@@ -282,7 +282,7 @@ std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary
             buffers[i] = load_uri(buffer, uri->text(), length, input, log);
         } else if (i == 0 && binary_chunk) {
             if (length > binary_chunk->size())
-                buffer.fail(fmt::format("expected {} bytes, and the binary chunk has {}", length,
+                buffer.fail(fmt::format("expected {} bytes, but the binary chunk has {}", length,
                                         binary_chunk->size()),
                             "E-BUFFER");
             buffers[i].assign(binary_chunk->begin(),

@@ -16,7 +16,7 @@ inline constexpr const char* hint_for_version_1 =
     "convert it to glTF 2.0: npx gltf-pipeline -i old.gltf -o new.gltf";
 
 /// The message for a member that no check has covered.
-inline constexpr const char* wrong_type = "a member has another type than glTF gives it";
+inline constexpr const char* wrong_type = "a member does not have the type that glTF requires";
 
 /// Calls body, and adds the file to its errors.
 template <class Body>
@@ -33,8 +33,8 @@ template <class Body>
 /// True when the bytes begin with the GLB magic number.
 bool is_glb(Span bytes);
 
-/// Whether a JSON text is a tileset of 3D Tiles, which names an "asset", too: of the members of the outermost
-/// object that only one of both has, the first is the tileset's.
+/// Whether a JSON text is a tileset of 3D Tiles. Tilesets and glTF both have an "asset", so the first member
+/// that only one of both formats has decides.
 bool is_tileset(std::string_view json);
 
 /// The chunks of a container, pointing into it.

@@ -203,7 +203,7 @@ std::optional<std::size_t> index_at(const Json& owner, const char* key, std::siz
     if (!owner.is_object()) return {};
     const auto found = owner.find(key);
     if (found == owner.end() || !found->is_number_integer()) return {};
-    // Numbers of a document are unsigned, those that were added may be signed.
+    // Numbers of a document are unsigned, but added numbers may be signed.
     if (!found->is_number_unsigned() && found->get<std::int64_t>() < 0) return {};
     const auto index = found->get<std::size_t>();
     return index < count ? std::optional(index) : std::nullopt;

@@ -74,7 +74,7 @@ struct Placement {
 /// The kinds of primitives with positions, also of lists, strips and fans; none: without positions.
 enum class Drawn { none, points, lines, triangles };
 [[nodiscard]] Drawn kind_of(const JsonCursor& primitive);
-/// What a part has of a mesh: triangles if there are any, else lines, else points.
+/// The kind of primitives that a part takes from a mesh: triangles if there are any, else lines, else points.
 [[nodiscard]] Drawn kind_of_mesh(const JsonCursor& mesh);
 bool makes_triangles(const JsonCursor& primitive);
 bool has_triangles(const JsonCursor& mesh);

@@ -1,5 +1,5 @@
 #pragma once
-// What the checks of rules between objects share. Members must have been checked.
+// Helpers for the checks of rules between objects. Members must have been checked.
 
 #include "io/gltf/document/check.hpp"
 

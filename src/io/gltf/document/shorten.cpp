@@ -157,7 +157,7 @@ void shorten(Json& document, const Box& bounds, const std::vector<Transform>& wo
 
 namespace {
 
-/// Whether the name is all that a node has: applications find such a node by its name and put things there.
+/// Whether a node has only a name: applications find such a node by its name and attach objects to it.
 bool is_named_place(const Json& node) {
     for (const auto& [key, value] : node.items())
         if (key != "name" && key != "translation" && key != "rotation" && key != "scale" && key != "matrix")

@@ -145,7 +145,7 @@ void check_tree(::draco::DecoderBuffer& buffer, std::uint32_t points) {
     decode_count(buffer, false); // bits per number
     const std::uint32_t in_tree = decode_count(buffer, false);
     if (attributes == 0 || in_tree != points)
-        fail(fmt::format("its tree has {} points, and its header {}", in_tree, points));
+        fail(fmt::format("its tree has {} points, but its header gives {}", in_tree, points));
 }
 
 /// Reads the declared numbers of faces and points. Refuses numbers that the bytes or the memory cannot hold,
@@ -214,7 +214,7 @@ std::unique_ptr<::draco::PointCloud> decode(Span bytes, DracoContents contents) 
     const auto type = ::draco::Decoder::GetEncodedGeometryType(&buffer);
     if (!type.ok()) fail(type.status().error_msg());
     const bool is_mesh = type.value() == ::draco::TRIANGULAR_MESH;
-    if (!is_mesh && contents == DracoContents::mesh) fail("it is a point cloud, and a mesh was expected");
+    if (!is_mesh && contents == DracoContents::mesh) fail("it is a point cloud, but a mesh was expected");
     const AllocationCap cap(check_counts(buffer, is_mesh));
     auto cloud = decode(buffer, is_mesh, true);
     return has_lost_types(*cloud) ? decode(buffer, is_mesh, false) : std::move(cloud);
@@ -260,9 +260,9 @@ DracoMesh decode_draco(Span bytes, DracoContents contents) {
         for (int a = 0; a < cloud->num_attributes(); ++a)
             result.columns.push_back(column_of(*cloud, *cloud->attribute(a)));
     } catch (const std::bad_alloc&) {
-        fail("it asks for more memory than there is, or than its faces and points can need");
+        fail("it needs more memory than is available, or than its faces and points justify");
     } catch (const std::length_error&) {
-        fail("it asks for more memory than there is, or than its faces and points can need");
+        fail("it needs more memory than is available, or than its faces and points justify");
     }
     return result;
 }

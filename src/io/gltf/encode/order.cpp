@@ -76,7 +76,7 @@ std::vector<std::size_t> groups_of(const Table& table) {
     return starts;
 }
 
-/// Sorts groups of triangles: those that face away from the centre come first, because they hide the others.
+/// Sorts groups of triangles. Groups that face away from the centre come first, because they hide the others.
 void order_groups(const Mesh& mesh, Table& table) {
     const auto place = [&](std::size_t corner) {
         return mesh.positions[mesh.vertex_of_wedge(table.wedges[table.indices[corner]])];

@@ -87,9 +87,9 @@ void convert(Attribute& a, const std::string& semantic, AttributeChanges& change
         integers && (semantic[0] == '_' || semantic.rfind("JOINTS_", 0) == 0) && fits_uint16(a);
     const char* from = a.type();
     AttributeData data = whole ? converted<std::uint16_t>(a) : converted<float>(a);
-    changes.push_back(
-        {a.name, a.domain, AttributeChange::Kind::kept,
-         fmt::format("written as {}, because glTF has no {} there", whole ? "uint16" : "float32", from)});
+    changes.push_back({a.name, a.domain, AttributeChange::Kind::kept,
+                       fmt::format("written as {}, because glTF does not allow {} for it",
+                                   whole ? "uint16" : "float32", from)});
     a.data = std::move(data);
     a.normalised = false;
 }
@@ -187,7 +187,7 @@ std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings,
             return c.semantic == semantic && c.target == target;
         };
         if (std::any_of(columns.begin(), columns.end(), taken)) {
-            drop(a, "another attribute has its name already");
+            drop(a, "another attribute already has its name");
             continue;
         }
         Column column{semantic, target, a};

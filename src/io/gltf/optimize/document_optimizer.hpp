@@ -67,7 +67,7 @@ class DocumentOptimizer {
     /// unknown way (numbers_are_known).
     TidyNumbers erase_unused(const TidyRequest& request);
 
-    /// Merges equal accessors, by their bytes. keep_names: those with names stay. Returns the number of
+    /// Merges equal accessors, by their bytes. keep_names: accessors with names stay. Returns the number of
     /// duplicates.
     std::size_t merge_equal_accessors(bool keep_names);
 

@@ -11,7 +11,7 @@ namespace {
 /// The reason why a set of feature ids is no longer valid; empty if it is valid.
 std::string reason_to_drop(const Json& ids, const std::function<bool(const std::string&)>& has) {
     const auto needs = [&](const std::string& attribute) {
-        return has(attribute) ? std::string() : fmt::format("feature ids, for want of {}", attribute);
+        return has(attribute) ? std::string() : fmt::format("feature ids, because {} is missing", attribute);
     };
     if (const auto n = index_at(ids, "attribute")) return needs(fmt::format("_FEATURE_ID_{}", *n));
     if (ids.is_object() && ids.contains("texture"))

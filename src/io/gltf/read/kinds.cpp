@@ -19,7 +19,7 @@ struct Apart {
     std::string suffix;
 };
 
-/// The primitives of a mesh that stay, and those that leave it.
+/// The primitives that stay in a mesh, and the primitives that leave it.
 struct Groups {
     Json kept = Json::array();
     std::vector<Apart> apart{};

@@ -33,7 +33,7 @@ class Differences {
     std::vector<std::string> found_;
 };
 
-/// The neighbours of a written file. Images are not decoded, so a byte stands for each.
+/// The neighbours of a written file. Images are not decoded, so one byte replaces each.
 class WrittenFiles : public TinygltfFiles {
   public:
     explicit WrittenFiles(const Input& file) : file_(file) {}
@@ -58,7 +58,7 @@ class WrittenFiles : public TinygltfFiles {
     const Input& file_;
 };
 
-/// Returns what tinygltf says against the file, or an empty text.
+/// Returns tinygltf's error, or an empty text.
 std::string load(const Input& file, tinygltf::Model& model) {
     WrittenFiles files(file);
     tinygltf::TinyGLTF loader = loader_for(files);
@@ -119,7 +119,7 @@ const T* entry(const std::vector<T>& all, int index) {
                                                                       : nullptr;
 }
 
-/// packed: a Draco array, which tinygltf stores without gaps whatever its view says.
+/// packed: a Draco array, which tinygltf stores without gaps, regardless of its view.
 std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, bool packed) {
     const auto* accessor = entry(model.accessors, index);
     const auto* view = accessor ? entry(model.bufferViews, accessor->bufferView) : nullptr;
@@ -140,7 +140,7 @@ std::optional<Numbers> numbers_of(const tinygltf::Model& model, int index, bool 
     return all;
 }
 
-/// What a part consists of, by tinygltf.
+/// The contents of a part, as tinygltf reads them.
 struct Contents {
     std::size_t triangles = 0, lines = 0;
     Box box;           ///< of the vertices that triangles and lines use
@@ -312,7 +312,7 @@ SecondReading compare(const Input& file, const Scene& scene, const std::string& 
     }
     tinygltf::Model model;
     if (const std::string error = load(file, model); !error.empty()) {
-        // It refuses some documents that others accept, such as those with an empty skin.
+        // It refuses some documents that others accept, for example with an empty skin.
         reading.not_asked = "tinygltf cannot read it: " + error.substr(0, error.find('\n'));
         return reading;
     }
@@ -333,7 +333,7 @@ SecondReading read_again(const Input& file, const Scene& scene) {
     } catch (const Json::exception&) {
         SecondReading reading;
         reading.reader = "tinygltf";
-        reading.not_asked = "the document has members of other types than glTF defines";
+        reading.not_asked = "members of the document do not have the types that glTF requires";
         return reading;
     }
 }

@@ -13,7 +13,7 @@ namespace facetmill::io {
 /// if nothing changes. A part with an unreadable skin stays unchanged.
 [[nodiscard]] std::optional<Scene> posed(const Scene& scene);
 
-/// The world box of what viewers draw of these parts: the pose of posed(), and animated nodes at their
+/// The world box of these parts as viewers draw them: the pose of posed(), and animated nodes at their
 /// largest scale. Hidden parts and lower levels of detail count only if nothing else is chosen. Without
 /// chosen parts: all.
 [[nodiscard]] Box posed_bounds(const Scene& scene, std::vector<bool> chosen = {});

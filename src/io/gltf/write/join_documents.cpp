@@ -49,7 +49,7 @@ bool is_in_use(const Scene& scene, int document, const Json& json) {
                        [&](const Part& part) { return part.document == document; });
 }
 
-/// What to add to the numbers of a document, and the new numbers of its variants.
+/// The offsets to add to the item numbers of a document, and the new numbers of its variants.
 struct Renumbering {
     std::map<std::string, std::size_t> first{}; ///< by list
     std::size_t first_light = 0;
@@ -150,7 +150,7 @@ std::vector<std::size_t> append_variants(Json& document, Json& other) {
     return numbers;
 }
 
-/// Shows the nodes of the other document's scene with those of the document's scene. Other scenes stay.
+/// Adds the nodes of the other document's scene to the document's scene. Other scenes stay.
 void append_scenes(Json& document, Json& other) {
     const std::size_t shown = index_at(document, "scene", document["scenes"].size()).value_or(0);
     const std::size_t theirs = index_at(other, "scene", other["scenes"].size()).value_or(0);

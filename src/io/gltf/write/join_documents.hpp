@@ -1,5 +1,5 @@
 #pragma once
-// Several glTF documents as one, with everything that they have.
+// Joins several glTF documents into a single document, with all their contents.
 
 #include "io/gltf/write/patch.hpp"
 
@@ -16,7 +16,7 @@ struct JoinedDocuments {
 };
 
 /// Appends the other glTF documents of a scene to its base document: nodes, skins, animations, variants,
-/// cameras, lights and all the rest. Variants of equal names become one. Documents stay apart if their
+/// cameras, lights and all the rest. Variants with equal names are merged. Documents stay apart if their
 /// extensions may refer to items in an unknown way, or if stages took all their meshes. None if nothing was
 /// joined.
 [[nodiscard]] std::optional<JoinedDocuments> join_documents(const Scene& scene, const BaseDocument& base);

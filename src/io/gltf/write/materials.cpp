@@ -96,11 +96,10 @@ void copy_levels(MaterialCopies& copies, int document, Json& json) {
     if (extensions == json.end() || !extensions->is_object() || extensions->erase("MSFT_lod") == 0) return;
     if (extensions->empty()) json.erase("extensions");
     const std::string& name = copies.patch.scene.documents[static_cast<std::size_t>(document)]->name;
-    copies.patch.warn(
-        "W-MERGED",
-        fmt::format("the levels of detail of material '{}' of '{}' are not written",
-                    json.value("name", std::string()), name),
-        fmt::format("load '{}' by itself, and write it to a file of its own to keep them", name));
+    copies.patch.warn("W-MERGED",
+                      fmt::format("the levels of detail of material '{}' of '{}' are not written",
+                                  json.value("name", std::string()), name),
+                      fmt::format("load '{}' alone, and write it to a separate file to keep them", name));
 }
 
 Json new_material(const Material& material) {

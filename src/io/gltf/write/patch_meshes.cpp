@@ -74,7 +74,7 @@ bool uses_all_wedges(const Mesh& mesh) {
 }
 
 /// True if the mesh would be rounded or compressed with vertices that it does not use, as meshes of one large
-/// accessor have. Extensions keep a mesh as it is.
+/// accessor have. A mesh with extensions is not changed.
 bool has_excess(const Patch& patch, const Json& json, const Mesh& mesh) {
     const WriteSettings& s = patch.settings;
     if (!s.draco.on && !s.quantize.on && !s.meshopt.on) return false;

@@ -72,7 +72,7 @@ Transform node_world(const Patch& patch, const Claims& claims, const Part& part)
     return back ? part.transform * *back : part.transform;
 }
 
-/// The wanted world transforms of the document's nodes: those of the parts, otherwise unchanged.
+/// The wanted world transforms of the document's nodes: the transform of the part, otherwise unchanged.
 std::vector<Transform> wanted_worlds(const Patch& patch, const Claims& claims) {
     std::vector<Transform> worlds;
     for (const auto& frame : claims.frames) worlds.push_back(frame.world);
@@ -147,7 +147,8 @@ void move_nodes(Patch& patch, const Claims& claims) {
         if (!up || !down) {
             patch.warn("W-TRANSFORM",
                        fmt::format("nodes[{}] {} and keeps its transform, although its part has moved", n,
-                                   up ? "is animated from no volume" : "is under a node without volume"));
+                                   up ? "has an animation of a flattening transform"
+                                      : "is under a node that flattens it"));
             continue;
         }
         if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;

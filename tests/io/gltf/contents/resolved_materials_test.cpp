@@ -103,7 +103,7 @@ TEST_CASE("a texture that cannot be drawn is a warning, and the plain colour", "
     huge.replace(16, 8, std::string("\0\0\x40\0\0\0\x40\0", 8));
     const std::string told = warned(scene_with(red_texture, {data_uri(huge)}));
     CHECK(told.starts_with("W-TEXTURE images[0]: not drawn: "));
-    CHECK(told.ends_with("; the plain colour is drawn in its place"));
+    CHECK(told.ends_with("; the plain colour is drawn instead"));
     CHECK(warned(scene_with(red_texture, {})).starts_with("W-TEXTURE not drawn: "));
     CHECK(warned(scene_with(red_texture, {"missing.png"})).empty()); // the reader has already warned
     Scene compressed = scene_with(red_texture, {data_uri(test::red_png())});
