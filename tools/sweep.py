@@ -29,16 +29,17 @@ os.environ["FACETMILL_CACHE"] = "off"  # what is swept runs
 SECONDS, BYTES = 20, 4 << 30
 SUFFIXES = {".drc", ".glb", ".gltf", ".gz", ".obj", ".off", ".ply", ".stl"}
 
-# What people ask of each stage. Those that are asked to take surface away may.
-STAGES = ["clean", "clean --weld exact --holes minimal --self_intersections all", "clip z=50% --cap", "clip x=50%",
+# What people ask of each stage. FILE is the file itself. Those that are asked to take surface away may.
+STAGES = ["align FILE", "clean", "clean --hidden --smaller_than 1%", "clean --weld exact --holes minimal --self_intersections all", "clip z=50% --cap", "clip x=50%",
           "combine", "crumple 0.5%", "crumple 0.5% --self_intersections avoid", "ensure --faces.min 0", "generate icosphere",
+          "hull", "hull --max_parts 8 --max_vertices 32", "hull capsule",
           "measure", "merge", "normals", "normals keep", "optimize", "orient", "probe 0,0,0", "relax 3", "relax --method implicit", "remesh 2%", "remesh --tolerance 1%", "render view.png",
           "section z=50%", "separate", "simplify 50%", "simplify --max_error 1%", "simplify 10% --method cluster",
           "split midpoint", "split --max_edge 5%", "textures 64 --format webp", "thicken 1%", "thicken 1% --mode edges", "tile 50%",
-          "transform --scale 2", "triangulate", "triangulate quads", "two-sided", "validate --faces.min 0",
+          "transfer FILE", "transform --scale 2", "triangulate", "triangulate quads", "two-sided", "validate --faces.min 0", "wrap 5%",
           "write out.glb", "write out.glb --draco", "write out.ply", "write out.stl", "write out.obj", "write out.off"]
 # Stages that may leave nothing, or little: a plane may miss the half that has the mesh.
-TAKES = {"clip", "combine", "crop", "generate", "section", "tile", "transform"}
+TAKES = {"clip", "combine", "crop", "generate", "hull", "section", "tile", "transform", "wrap"}
 # As asked, puts cylinders in the place of the faces.
 REPLACES = "thicken 1% --mode edges"
 
@@ -75,7 +76,7 @@ class Sweep:
         report = self.folder / "run.json"
         line = ["load", str(file)]
         for stage in stages:
-            line += ["!", *stage.split()]
+            line += ["!", *(str(file) if word == "FILE" else word for word in stage.split())]
         if threads:
             line[:0] = ["-j", str(threads)]
             if not stages[-1].startswith("write "):

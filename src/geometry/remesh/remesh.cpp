@@ -4,6 +4,7 @@
 #include "base/math/portable_math.hpp"
 #include "base/progress.hpp"
 #include "geometry/edit/equal_wedges.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "geometry/normals/normals.hpp"
 #include "geometry/remesh/features.hpp"
 #include "geometry/remesh/passes.hpp"
@@ -133,6 +134,54 @@ void check(const RemeshSettings& s) {
     if (s.iterations < 0) refuse("iterations", s.iterations);
 }
 
+SelfIntersections intersections_of(std::vector<Vec3> points, std::vector<Index> corners) {
+    constexpr std::size_t listed = 100000;
+    const std::size_t faces = corners.size() / 3;
+    return find_self_intersections(Surface{std::move(points), std::move(corners), {}}, faces,
+                                   {.limit = listed});
+}
+
+/// Halves the intended lengths at the faces of the input that are nearest to intersecting faces.
+void shorten(std::vector<double>& sizes, const Mesh& input, const FaceTree& tree, const WorkingMesh& m,
+             const SelfIntersections& found) {
+    std::vector<std::uint8_t> near(sizes.size());
+    for (const auto& [f, g] : found.pairs)
+        for (const Index face : {f, g})
+            for (Index k = 0; k < 3; ++k) {
+                const Closest at = closest_point(tree, m.points[m.corners[3 * face + k]]);
+                if (at.face == none) continue;
+                for (Index c = 0; c < 3; ++c) near[input.vertex(3 * at.face + c)] = 1;
+            }
+    for (Index v = 0; v < sizes.size(); ++v)
+        if (near[v]) sizes[v] /= 2;
+}
+
+/// Iterates, again with shorter edges where faces of the result intersect, unless the input intersects
+/// itself. The layout of the mesh, with sizes, becomes the result.
+void remesh_until_sound(const Mesh& mesh, const FaceTree& tree, const RemeshSettings& settings, LaidOut& laid,
+                        RemeshResult& result) {
+    std::vector<double> sizes = laid.mesh.sizes;
+    constexpr int most_retries = 3;
+    for (int retry = 0;; ++retry) {
+        WorkingMesh& m = laid.mesh;
+        iterate(m, Anchor(mesh, tree, m), settings.iterations);
+        m.compact();
+        const SelfIntersections found = intersections_of(m.points, m.corners);
+        if (found.count > 0 && retry == 0)
+            result.input_intersects = intersections_of(mesh.positions, surface_of(mesh).corners).count > 0;
+        result.intersections = found.count;
+        result.retries = retry;
+        if (found.count == 0 || result.input_intersects || retry == most_retries) return;
+        shorten(sizes, mesh, tree, m, found);
+        laid = lay_out(mesh, settings.feature_angle, longest_noise(settings, mesh));
+        grade(laid.mesh, sizes);
+        laid.mesh.sizes = sizes;
+        laid.mesh.hints.assign(laid.mesh.points.size(), none);
+        result.expected_faces = expected_faces(laid.mesh, sizes);
+        refuse_giant_result(result.expected_faces);
+    }
+}
+
 /// Restores the normals of a flat-shaded mesh.
 void settle_flat_normals(Mesh& mesh, AttributeChanges& changes) {
     if (!mesh.find("NORMAL", Domain::wedge)) return;
@@ -169,9 +218,8 @@ RemeshResult remesh(Mesh mesh, const RemeshSettings& given) {
         result.mesh = std::move(mesh);
     } else {
         steps.next();
-        iterate(m, Anchor(mesh, tree, m), settings.iterations);
+        remesh_until_sound(mesh, tree, settings, laid, result);
         steps.next();
-        m.compact();
         measure_edges(m, result);
         result.mesh = finished(mesh, tree, laid, result.changes);
     }

@@ -26,6 +26,9 @@ struct RemeshResult {
     std::size_t locked_edges = 0;               ///< non-manifold edges, which are not changed
     std::size_t dropped_faces = 0;              ///< faces of the input with a repeated corner
     double shortest = 0, mean = 0, longest = 0; ///< edges of the result
+    std::size_t intersections = 0;              ///< pairs of faces of the result that intersect
+    bool input_intersects = false; ///< faces of the input do, too; only if those of the result do
+    int retries = 0;               ///< with shorter edges where faces intersected
 };
 
 /// Isotropic remeshing after M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling"
@@ -42,6 +45,9 @@ struct RemeshResult {
 /// kept. Non-manifold edges are not changed. No step makes an edge or a vertex non-manifold, turns the normal
 /// of a face by more than 60 degrees or removes a component. So a closed, manifold mesh stays closed and
 /// manifold.
+///
+/// Where a wall or a gap is thinner than the edges, faces of the result may intersect. If those of the input
+/// do not, remeshing starts again with half the lengths near these faces, at most three times.
 ///
 /// Faces are triangulated first. Faces with a repeated corner are dropped. Attributes are interpolated at the
 /// nearest points of the input (geometry/transfer). Seams that only normals make are merged below the feature

@@ -72,7 +72,8 @@ double curvature_of_line(const WorkingMesh& m, Index v, double feature_angle) {
     return turn > feature_angle || !(size > 0) ? 0 : 2 * turn / size;
 }
 
-/// Lowers sizes until they grow by at most `growth` times the distance along each edge.
+} // namespace
+
 void grade(const WorkingMesh& m, std::vector<double>& sizes) {
     constexpr double growth = 0.5;
     using Entry = std::pair<double, Index>;
@@ -91,8 +92,6 @@ void grade(const WorkingMesh& m, std::vector<double>& sizes) {
         });
     }
 }
-
-} // namespace
 
 std::vector<double> intended_sizes(const WorkingMesh& m, const RemeshSettings& s) {
     if (s.length > 0) return std::vector<double>(m.points.size(), s.length);

@@ -70,7 +70,9 @@ This test is exact, and vertices that fail it do not move (W-CLEAN).
 With apart: false, no vertex moves.
 
 The step hidden: true runs first, and removes faces that no ray from outside reaches.
-Each part can hide faces of other parts. Skinned parts are tested in the bind pose.
+Each part can hide faces of other parts. Parts are tested in the pose and at all instances that viewers show.
+Parts that animations or morph targets move keep their faces and hide nothing. So do parts that viewers do not
+draw.
 Parallel rays first cover the scene in 14 directions.
 They are so close that an opening in one of these directions lets a ray through if it is wider than gap.
 From each face that no such ray reaches, up to 256 rays in evenly spread directions test for a way out.

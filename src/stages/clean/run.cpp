@@ -1,13 +1,10 @@
 #include "base/text/words.hpp"
 #include "cells/process/clean_cells.hpp"
 #include "cells/process/inspect_cells.hpp"
-#include "geometry/edit/surgery.hpp"
-#include "geometry/hidden/hidden.hpp"
 #include "geometry/normals/unit_vectors.hpp"
-#include "geometry/triangulate/crossing_faces.hpp"
-#include "mesh/face.hpp"
 #include "mesh/transform.hpp"
 #include "stages/clean/help.hpp"
+#include "stages/clean/hidden_parts.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
 
@@ -24,44 +21,6 @@ void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
                              counted(all.size(), "repair"), part.name, all[0].step, all[0].why),
                  "the report lists the first repairs that failed, with their positions");
 }
-
-/// The faces of each part that no ray from outside reaches; empty without hidden: true.
-class HiddenOfParts {
-  public:
-    HiddenOfParts(const CleanOptions& o, const Scene& scene, Context& context) {
-        if (!o.hidden) return;
-        const double diagonal = scene.bounds().diagonal();
-        const double gap = o.gap ? context.resolve(*o.gap, scene, "gap") : diagonal / 100;
-        if (!(gap > 0)) return; // a single point hides nothing
-        const Surface surface = surface_of(scene, filled_surface);
-        const FaceTree tree(surface, FaceTree::Use::rays);
-        found_ = hidden_faces(surface, tree, scene.face_count(), {.gap = gap});
-        Index first = 0;
-        for (const Part& part : scene.parts) {
-            first_.push_back(first);
-            first += static_cast<Index>(part.mesh.face_count());
-        }
-    }
-
-    /// Removes the hidden faces of the part with this number.
-    std::optional<HiddenCounts> remove(Part& part, std::size_t number) const {
-        if (first_.empty()) return {};
-        HiddenCounts counts{0, 0, found_.outer_rays, found_.face_rays};
-        std::vector<std::uint8_t> gone(part.mesh.face_count());
-        for (Index f = 0; f < gone.size(); ++f) {
-            gone[f] = found_.flags[first_[number] + f];
-            if (!gone[f]) continue;
-            ++counts.faces;
-            counts.area += length(area_vector(part.mesh, f, part.transform)) / 2;
-        }
-        if (counts.faces > 0) part.mesh = keep_faces(part.mesh, faces_without(gone));
-        return counts;
-    }
-
-  private:
-    HiddenFaces found_;
-    std::vector<Index> first_; ///< [parts] number of the first face
-};
 
 Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& report) {
     UntangleBudget budget;

@@ -26,8 +26,10 @@ Edges with more than two faces, or with two faces in conflicting directions, are
 changed.
 
 A closed mesh stays closed, and a manifold mesh stays manifold.
-No step turns a face by more than 60 degrees, but thin walls can intersect if they are thinner than the
-length. Check this with `validate: {self_intersections: 0}`.
+No step turns a face by more than 60 degrees.
+Walls and gaps that are thinner than the length can make faces intersect.
+If no faces of the input intersect, the stage then starts again with half the length near these faces.
+After three retries, W-REMESH-INTERSECTS warns about faces that still intersect.
 
 Polygons are triangulated first.
 Attributes are interpolated at the nearest points of the input, on the same side of seams.

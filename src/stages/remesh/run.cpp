@@ -1,3 +1,4 @@
+#include "base/text/words.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/remesh/remesh.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -148,6 +149,11 @@ class PartRemesher {
 
     void warn(const Part& part, const RemeshResult& r, const RemeshedPart& result, double tolerance) const {
         if (!(r.expected_faces > 0) && result.faces_before > 0) warn_of_no_area(part);
+        if (r.intersections > 0 && !r.input_intersects)
+            context_.warn("W-REMESH-INTERSECTS",
+                          fmt::format("remesh: {} of part '{}' intersect",
+                                      counted(r.intersections, "pair of faces", "pairs of faces"), part.name),
+                          o_.length ? "give a shorter length" : "give a smaller tolerance or min_length");
         if (tolerance > 0 && result.deviation && *result.deviation > tolerance)
             context_.warn("W-REMESH-TOLERANCE",
                           fmt::format("remesh: part '{}' is up to {:.4g} from the input, more than the "

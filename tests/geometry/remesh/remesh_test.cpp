@@ -1,6 +1,7 @@
 #include "geometry/remesh/remesh.hpp"
 
 #include "geometry/deviation/deviation.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "mesh/face.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -172,4 +173,24 @@ TEST_CASE("remesh: texture coordinates are continuous across a sharp edge withou
         most = std::max(most, std::abs(found->value(w, 0) - even.positions[even.vertex_of_wedge(w)].x));
     CHECK(even.face_count() > 200);
     CHECK(most < 1e-6);
+}
+
+TEST_CASE("remesh: a wall thinner than the edges gets shorter edges", "[remesh]") {
+    Mesh shell = shapes::icosphere(3);
+    Mesh inner = shell;
+    for (Vec3& p : inner.positions) p = p * 0.99;
+    for (std::size_t c = 0; c < inner.corners.size(); c += 3)
+        std::swap(inner.corners[c], inner.corners[c + 1]);
+    append(shell, inner);
+    RemeshSettings settings;
+    settings.length = 0.4; // an arc of this length is 0.02 from its chord
+    const RemeshResult r = remesh(shell, settings);
+    CHECK(r.retries > 0);
+    CHECK(r.intersections == 0);
+    CHECK(find_self_intersections(r.mesh).count == 0);
+
+    append(shell, shapes::cube()); // crosses the shell
+    const RemeshResult crossing = remesh(shell, settings);
+    CHECK(crossing.retries == 0);
+    CHECK(crossing.input_intersects);
 }
