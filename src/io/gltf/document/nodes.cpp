@@ -228,8 +228,6 @@ bool makes_triangles(const JsonCursor& primitive) { return kind_of(primitive) ==
 
 bool has_triangles(const JsonCursor& mesh) { return kind_of_mesh(mesh) == Drawn::triangles; }
 
-bool makes_lines(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::lines; }
-
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
     std::vector<Placement> all;
     UniqueNames names;

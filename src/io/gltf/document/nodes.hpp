@@ -78,7 +78,6 @@ enum class Drawn { none, points, lines, triangles };
 [[nodiscard]] Drawn kind_of_mesh(const JsonCursor& mesh);
 bool makes_triangles(const JsonCursor& primitive);
 bool has_triangles(const JsonCursor& mesh);
-bool makes_lines(const JsonCursor& primitive);
 
 /// The document on which a written scene is based.
 struct BaseDocument {
