@@ -302,6 +302,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
+    if (drop_further_parents(json, frames)) document->json = to_string(json);
     read_parts(scene, source, frames, settings, log);
     if (scene.parts.empty()) warn_without_parts(json, log);
     scene.documents.push_back(std::move(document));
