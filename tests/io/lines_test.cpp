@@ -198,6 +198,22 @@ TEST_CASE("line primitives of a glTF come where their node stands", "[io]") {
     CHECK((indexed.segments[0].from == 0 && indexed.segments[0].to == 2));
 }
 
+TEST_CASE("lines beside triangles of a glTF leave the document when they become tubes", "[io]") {
+    std::string text = gltf_lines(3);
+    const std::string lines = R"({"mode": 3,)";
+    REQUIRE(text.find(lines) != std::string::npos);
+    text.insert(text.find(lines), R"({"mode": 6, "attributes": {"POSITION": 0}},)");
+    const Loaded loaded = load("a.gltf", text);
+    REQUIRE(loaded.log.lines.size() == 1);
+    CHECK(loaded.log.lines[0].name == "wire_lines");
+    CHECK(loaded.log.lines[0].segments.size() == 3);
+    REQUIRE(loaded.scene.parts.size() == 1);
+    const auto bytes = test::written(loaded.scene, "glb").files.at(0).bytes;
+    const Scene again = test::read_bytes(bytes, "glb");
+    REQUIRE(again.parts.size() == 1);
+    CHECK(again.parts[0].mesh.line_count() == 0);
+}
+
 TEST_CASE("a glTF mesh of lines is a part of its document", "[io]") {
     for (const auto& [mode, ends] : {std::pair{1, std::vector<Index>{0, 1, 2, 3}},
                                      {2, {0, 1, 1, 2, 2, 3, 3, 0}},

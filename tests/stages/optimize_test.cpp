@@ -104,6 +104,25 @@ TEST_CASE("optimize joins parts of equal materials, and what is seen stays", "[s
     CHECK(json["nodes"].size() == 3);
 }
 
+TEST_CASE("parts that share some materials become one, with a primitive for each material", "[stages]") {
+    const auto two = [](int one, int other) {
+        const std::string primitive = R"({{"attributes":{{"POSITION":{},"TEXCOORD_0":1}},"material":{}}})";
+        return R"({"primitives":[)" + fmt::format(fmt::runtime(primitive), 0, one) + "," +
+               fmt::format(fmt::runtime(primitive), 2, other) + "]}";
+    };
+    const Scene scene = document(
+        R"({"mesh":0,"name":"a"},{"mesh":1,"translation":[5,0,0]},{"mesh":2,"translation":[9,0,0]},
+{"mesh":3,"translation":[0,5,0]})",
+        two(0, 1) + "," + two(1, 2) + "," + mesh(3) + "," + mesh(2, 2),
+        R"("materials":[)" + colour("a", 1) + "," + colour("b", 0.5) + "," + colour("c", 0.25) + "," +
+            colour("d", 0.1) + "]");
+    const auto run = run_stage("optimize", "{}", scene);
+    REQUIRE(run.scene.parts.size() == 2); // the third has a material of its own
+    CHECK(run.record.result["draw_calls_before"] == 6);
+    CHECK(run.record.result["draw_calls_after"] == 4);
+    CHECK(drawn_in_world(again(run.scene)) == drawn_in_world(scene));
+}
+
 TEST_CASE("meshes that are equal to the bit become one, which stays shared", "[stages]") {
     const auto run =
         run_stage("optimize", "{}",
@@ -591,6 +610,7 @@ TEST_CASE("tracks that keep a node where it is go, and the animation stays as lo
         moved("[" + moves + R"(,{"sampler":2,"target":{"node":0,"path":"scale"}}])");
     CHECK(none_dropped == 0);
     CHECK(longest["channels"].size() == 2);
+    CHECK(longest["samplers"][0]["input"] != longest["samplers"][1]["input"]); // one key at the end
     CHECK(moved("[" + moves + R"(,{"sampler":1,"target":{"node":0,"path":"translation"}}])").first == 0);
 }
 

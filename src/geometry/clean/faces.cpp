@@ -59,22 +59,53 @@ bool same_way(const Mesh& mesh, Index f, Index g) {
     return false;
 }
 
-/// The faces of every set of two or more with the same vertices, ordered by lowest face.
+/// How skins and morph targets move the corners of faces.
+class Moves {
+  public:
+    explicit Moves(const Mesh& mesh) : mesh_(mesh) {
+        for (const Attribute& a : mesh.attributes)
+            if (a.role == Role::morph_vector || a.role == Role::joints || a.role == Role::weights)
+                attributes_.push_back(&a);
+    }
+    /// The numbers of the face's corners, ordered by vertex.
+    std::vector<double> of(Index f) const {
+        std::vector<double> all;
+        if (attributes_.empty()) return all;
+        std::vector<Index> wedges(mesh_.face_wedges(f).begin(), mesh_.face_wedges(f).end());
+        std::sort(wedges.begin(), wedges.end(), [&](Index a, Index b) {
+            return std::pair(mesh_.vertex_of_wedge(a), a) < std::pair(mesh_.vertex_of_wedge(b), b);
+        });
+        for (const Index w : wedges)
+            for (const Attribute* a : attributes_)
+                for (int c = 0; c < a->components; ++c)
+                    all.push_back(a->value(a->domain == Domain::vertex ? mesh_.vertex_of_wedge(w) : w, c));
+        return all;
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::vector<const Attribute*> attributes_;
+};
+
+/// The faces of every set of two or more with the same vertices in all poses, ordered by lowest face.
 std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
     std::vector<std::uint8_t> listed(mesh.face_count(), 0);
-    std::map<std::vector<Index>, std::vector<Index>> groups;
+    const Moves moves(mesh);
+    const auto key_of = [&](Index f) { return std::pair(sorted_vertices(mesh, f), moves.of(f)); };
+    std::map<std::pair<std::vector<Index>, std::vector<double>>, std::vector<Index>> groups;
     for (const Index f : duplicate_faces(mesh)) {
-        groups[sorted_vertices(mesh, f)].push_back(f);
+        groups[key_of(f)].push_back(f);
         listed[f] = 1;
     }
     if (groups.empty()) return {};
     for (Index f = 0; f < mesh.face_count(); ++f) { // the first face of each set
         if (listed[f]) continue;
-        const auto at = groups.find(sorted_vertices(mesh, f));
+        const auto at = groups.find(key_of(f));
         if (at != groups.end()) at->second.push_back(f);
     }
     std::vector<std::vector<Index>> lists;
     for (auto& [set, faces] : groups) {
+        if (faces.size() < 2) continue;
         std::sort(faces.begin(), faces.end());
         lists.push_back(std::move(faces));
     }

@@ -17,7 +17,6 @@
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/instances.hpp"
 #include "io/gltf/read/kinds.hpp"
-#include "io/gltf/read/lines.hpp"
 #include "io/gltf/read/mesh.hpp"
 #include "io/gltf/read/second_reader.hpp"
 #include "io/gltf/write/join_documents.hpp"
@@ -221,7 +220,6 @@ void read_parts(Scene& scene, Source& source, const std::vector<NodeFrame>& fram
     }
     if (!all.empty()) warn_of_nodes_without_positions(source, frames, log);
     warn_of_parts_not_shown(scene, source.json(), log);
-    if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 
 /// Warns about a document with primitives if none of them was read.
@@ -279,6 +277,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     Json json = parse_document(document->json);
     const ScopedDestroy after(json);
     check_asset(json);
+    if (make_integers(json)) document->json = to_string(json);
     Breaches breaches;
     check_members(json, breaches);
     document->buffers = load_buffers(json, chunks.binary, input, log);
@@ -292,7 +291,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         expand_instances(json, document->buffers, log);
         document->json = to_string(json);
     }
-    if (part_kinds(json, !settings.lines)) document->json = to_string(json);
+    if (part_kinds(json)) document->json = to_string(json);
     if (place_at_centre(json)) document->json = to_string(json);
 
     Scene scene;
@@ -303,6 +302,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
+    if (drop_further_parents(json, frames)) document->json = to_string(json);
     read_parts(scene, source, frames, settings, log);
     if (scene.parts.empty()) warn_without_parts(json, log);
     scene.documents.push_back(std::move(document));
@@ -344,7 +344,7 @@ void peek(const Input& input, FileHeader& header) {
         Json json = parse_document(chunks_of(input).json, unread);
         const ScopedDestroy after(json);
         check_asset(json);
-        part_kinds(json, true);
+        part_kinds(json);
         const std::vector<Placement> placed = placements(json, node_frames(json));
         for (const auto& placement : placed) header.parts.push_back(placement.name);
         if (!drawn_materials(json, placed).empty()) header.has_materials = [] { return true; };

@@ -23,6 +23,10 @@ void declare_grid(Declare<Settings>& d) {
         "The length that is divided into 2^bits - 1 steps.");
 }
 
+constexpr const char* bits_of_colours =
+    "Bits of each channel of float colours. Colours are linear, so 8 bits show bands in dark tones. 12 bits "
+    "keep all tones of 8-bit sRGB colours.";
+
 void declare_draco(Declare<DracoSettings>& d) {
     d.option("position_bits", &DracoSettings::position_bits,
              "Bits of each coordinate. The longest side is divided into 2^bits - 1 steps. Default: 14, and "
@@ -31,7 +35,7 @@ void declare_draco(Declare<DracoSettings>& d) {
     declare_grid(d);
     d.option("normal_bits", &DracoSettings::normal_bits, "Bits of normals.").between(1, 30);
     d.option("uv_bits", &DracoSettings::uv_bits, "Bits of texture coordinates.").between(1, 30);
-    d.option("colour_bits", &DracoSettings::colour_bits, "Bits of colours.").between(1, 30);
+    d.option("colour_bits", &DracoSettings::colour_bits, bits_of_colours).between(1, 30);
     d.option("generic_bits", &DracoSettings::generic_bits, "Bits of all other attributes.").between(1, 30);
     d.option("speed", &DracoSettings::speed, "0 gives the smallest file, 10 the fastest compression.")
         .between(0, 10);
@@ -56,7 +60,7 @@ void declare_quantize(Declare<QuantizeSettings>& d) {
              "Bits of texture coordinates. With meshopt's filters, coordinates are multiples of 2^-uv in "
              "float32. Otherwise, coordinates beyond [-1, 1] stay float32.")
         .between(1, 16);
-    d.option("colour", &QuantizeSettings::colour_bits, "Bits of each colour channel.").between(1, 16);
+    d.option("colour", &QuantizeSettings::colour_bits, bits_of_colours).between(1, 16);
     d.option("weights", &QuantizeSettings::weight_bits,
              "8 stores joint weights as bytes. More bits store them as 16-bit numbers.")
         .between(8, 16);

@@ -1,4 +1,5 @@
 #include "base/progress.hpp"
+#include "base/text/words.hpp"
 #include "io/attributes.hpp"
 #include "io/material_document.hpp"
 #include "io/metadata.hpp"
@@ -181,10 +182,14 @@ void Builder::add_corner_uvs() {
     if (found.empty()) return;
     const Column& column = faces_.columns[found[0]];
     std::vector<std::uint64_t> keys(mesh_.corner_count(), 0);
+    std::size_t other = 0; // lists that do not have two numbers for each corner
     std::visit(
         [&](const auto& values) {
             for (Index f = 0; f < faces_.count(); ++f) {
-                if (column.size(f) != 2 * std::size_t{mesh_.face_size(f)}) continue;
+                if (column.size(f) != 2 * std::size_t{mesh_.face_size(f)}) {
+                    other += column.size(f) > 0 ? 1 : 0; // MeshLab writes empty lists for faces without
+                    continue;
+                }
                 for (std::size_t k = 0; k < mesh_.face_size(f); ++k) {
                     const auto u = static_cast<float>(values[column.begin(f) + 2 * k]);
                     const auto v = 1 - static_cast<float>(values[column.begin(f) + 2 * k + 1]);
@@ -194,6 +199,14 @@ void Builder::add_corner_uvs() {
             }
         },
         column.values);
+    if (other > 0)
+        log_.warnings.push_back(
+            {Severity::warning, "W-SKIPPED",
+             fmt::format(
+                 "texture coordinates of {} are skipped, because they do not have two numbers for each "
+                 "corner",
+                 counted(other, "face")),
+             file_mark(input_.name()), "export it again"});
     Wedges wedges = make_wedges(mesh_.vertex_count(), std::move(mesh_.corners), keys);
     mesh_.corners = std::move(wedges.corners);
     mesh_.wedge_vertex = std::move(wedges.wedge_vertex);

@@ -204,7 +204,7 @@ class TextReader {
     explicit TextReader(const Input& input)
         : all_(input.bytes().size()), text_(as_text(input.bytes()), input.name(), "E-STL") {}
 
-    Scene read(const Input& input, const ReadSettings& settings) {
+    Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         any_ = settings.drop_not_finite;
         Scene scene;
         while (!text_.at_end()) {
@@ -218,6 +218,11 @@ class TextReader {
             index_by_position(part.mesh, settings);
             scene.parts.push_back(std::move(part));
         }
+        if (more_ > 0)
+            log.warnings.push_back(
+                {Severity::warning, "W-SKIPPED",
+                 fmt::format("words after endloop or endfacet are skipped ({}), for example colours", more_),
+                 file_mark(input.name()), "write colours with a format that has them, such as PLY"});
         return scene;
     }
 
@@ -255,13 +260,17 @@ class TextReader {
             mesh.positions.push_back({x, y, z});
         }
         expect("endloop");
-        text_.rest_of_line();
+        skip_end();
         expect("endfacet");
-        text_.rest_of_line();
+        skip_end();
+    }
+    void skip_end() {
+        if (!text_.rest_of_line().empty()) ++more_;
     }
 
     std::size_t all_;
-    bool any_ = false; ///< coordinates that are not finite are dropped later
+    std::size_t more_ = 0; ///< ends of loops and facets with further words, for example colours
+    bool any_ = false;     ///< coordinates that are not finite are dropped later
     Text text_;
 };
 
@@ -339,7 +348,7 @@ Stated stated_in_head(Span bytes) {
 } // namespace
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
-    if (is_text(input.bytes())) return TextReader(input).read(input, settings);
+    if (is_text(input.bytes())) return TextReader(input).read(input, settings, log);
     Scene scene;
     scene.parts.push_back(read_binary(input, settings, log));
     take_stated(scene, stated_in_head(input.bytes()), input.name(), settings, log);

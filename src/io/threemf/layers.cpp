@@ -1,7 +1,6 @@
 #include "io/threemf/layers.hpp"
 
 #include "geometry/render/srgb.hpp"
-#include "io/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,28 +71,32 @@ std::vector<KnownLayer> seen_layers(const std::vector<KnownLayer>& known) {
 
 } // namespace
 
-Group blended(const Layers& layers, Model& model, const std::string& name) {
+Group blended(const Layers& layers, Model& model) {
     const std::vector<KnownLayer> known = known_layers(layers, model), seen = seen_layers(known);
     if (seen.size() < known.size()) ++model.skipped["layers beside a texture"];
     Group all;
     for (const KnownLayer& layer : seen)
         if (layer.group->textured()) all.texture = layer.group->texture;
     all.colours.reserve(layers.multis.size());
+    std::set<std::pair<std::uint32_t, std::size_t>> beyond;
     for (const std::vector<std::uint32_t>& multi : layers.multis) {
         Blend blend;
         for (const KnownLayer& layer : seen) {
             const std::size_t index = layer.number < multi.size() ? multi[layer.number] : 0;
-            if (index >= layer.group->size())
-                malformed(name, 0, "E-3MF",
-                          fmt::format("multiproperties name property {} of group {}, which has {}", index,
-                                      layers.groups[layer.number], layer.group->size()));
+            const bool known = index < layer.group->size();
+            if (!known) beyond.insert({layers.groups[layer.number], index});
             if (layer.group->textured())
-                all.points.push_back(layer.group->points[index]);
-            else
+                all.points.push_back(known ? layer.group->points[index] : std::array<float, 2>{});
+            else if (known)
                 blend.add(layer.group->colours[index], layer.multiply);
         }
         if (!all.textured() || seen.size() > 1) all.colours.push_back(blend.colour());
     }
+    for (const auto& [group, index] : beyond)
+        model.faults.push_back(
+            fmt::format("line {}: multiproperties name property {} of group {}, which has {}: "
+                        "the layer is left out there",
+                        layers.line, index, group, model.groups.at(group).size()));
     return all;
 }
 

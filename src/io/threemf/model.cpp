@@ -2,7 +2,7 @@
 
 #include "base/text/words.hpp"
 #include "io/text.hpp"
-#include "io/threemf/layers.hpp"
+#include "io/threemf/rules.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -35,13 +35,8 @@ class ModelReader {
             if (group.textured() && !model_.textures.contains(group.texture))
                 model_.faults.push_back(
                     fmt::format("the texture {} of group {} does not exist", group.texture, id));
-        for (const auto& [id, layers] : layers_) {
-            const auto known = [&](std::uint32_t group) { return model_.groups.contains(group); };
-            if (std::any_of(layers.groups.begin(), layers.groups.end(), known))
-                model_.groups[id] = blended(layers, model_, name_);
-            else
-                others_.insert(id); // unknown layers only: no colour hides the material
-        }
+        check_composites(resources_, name_);
+        for (const auto& [id, layers] : layers_) check_layers(layers, resources_, name_);
         for (const auto& [id, object] : model_.objects) check(id, object);
         return std::move(model_);
     }
@@ -60,8 +55,7 @@ class ModelReader {
         if (!known) {
             if (skipping_++ > 0) return;
             ++model_.skipped[std::string(e.name)];
-            if (parent == "resources")
-                if (const auto id = e.find("id")) claim(e, natural(e, "id", *id), true);
+            if (parent == "resources") other_resource(e);
             return;
         }
         open_.emplace_back(e.name);
@@ -93,15 +87,31 @@ class ModelReader {
             group_->colours.push_back(colour(e, "color"));
         else if (e.name == "metadata")
             metadata(e);
+        else
+            start_rare(e);
     }
 
   private:
-    [[noreturn]] void fail(const Element& e, const std::string& message) const {
-        malformed(name_, static_cast<int>(std::min<std::size_t>(e.line, INT32_MAX)), "E-3MF", message);
+    void start_rare(const Element& e) {
+        if (e.name == "beam")
+            for (const char* end : {"v1", "v2"}) object_->beams.push_back(natural(e, end));
+        else if (e.name == "beamlattice")
+            ++model_.skipped["radii of beams"];
+        else if (e.name == "build")
+            model_.has_build = true;
+        else if (e.name == "vertices" || e.name == "triangles")
+            note_attributes(e, {});
+    }
+
+    [[noreturn]] void fail(const Element& e, const std::string& message, std::string hint = {}) const {
+        malformed(name_, static_cast<std::int64_t>(e.line), "E-3MF", message, std::move(hint));
+    }
+    [[noreturn]] void breaks_rule(const Element& e, const std::string& message) const {
+        fail(e, message, hint_for_rules);
     }
     std::string_view need(const Element& e, const char* attribute) const {
         const auto value = e.find(attribute);
-        if (!value) fail(e, fmt::format("<{}> has no attribute '{}'", e.name, attribute));
+        if (!value) breaks_rule(e, fmt::format("<{}> has no attribute '{}'", e.name, attribute));
         return *value;
     }
     double real(const Element& e, const char* attribute, std::string_view text) const {
@@ -151,7 +161,7 @@ class ModelReader {
     }
     Use use(const Element& e) const {
         const auto path = e.find(fmt::format("{}|path", production_space));
-        return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e), true};
+        return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e), true, e.line};
     }
 
     void item(const Element& e) {
@@ -207,7 +217,11 @@ class ModelReader {
             {"resources", "texture2d"},      {"resources", "texture2dgroup"},
             {"texture2dgroup", "tex2coord"}, {"resources", "multiproperties"},
             {"multiproperties", "multi"}};
+        static constexpr std::pair<std::string_view, std::string_view> lattices[] = {
+            {"mesh", "beamlattice"}, {"beamlattice", "beams"}, {"beams", "beam"}};
         const std::pair here(parent, e.name);
+        if (e.space == lattice_space)
+            return std::find(std::begin(lattices), std::end(lattices), here) != std::end(lattices);
         if (e.space == material_space)
             return std::find(std::begin(colours), std::end(colours), here) != std::end(colours);
         return e.space == core_space && std::find(std::begin(core), std::end(core), here) != std::end(core);
@@ -222,16 +236,22 @@ class ModelReader {
         model_.unit = known->unit;
         for (const std::string_view prefix : words_of(e.find("requiredextensions").value_or(""))) {
             const std::string& space = spaces_[std::string(prefix)];
-            if (space != material_space && space != production_space && space != core_space)
-                malformed(
-                    name_, static_cast<int>(std::min<std::size_t>(e.line, INT32_MAX)), "E-EXTENSION",
-                    fmt::format("the extension '{}' ({}) is required but not supported", prefix, space));
+            if (std::find(std::begin(known_spaces), std::end(known_spaces), space) == std::end(known_spaces))
+                malformed(name_, static_cast<std::int64_t>(e.line), "E-EXTENSION",
+                          fmt::format("the extension '{}' ({}) is required but not supported", prefix, space),
+                          "export it without the extension, as a plain mesh");
         }
+        if (e.find("http://www.w3.org/XML/1998/namespace|space"))
+            model_.faults.push_back(
+                fmt::format("line {}: <model> has xml:space, which 3MF does not allow", e.line));
     }
 
     /// Keeps metadata, except entries that describe the file. Names with a prefix are settings of programs.
     void metadata(const Element& e) {
         const std::string_view name = need(e, "name");
+        if (!metadata_.emplace(name).second)
+            model_.faults.push_back(
+                fmt::format("line {}: there are two metadata {}: the last counts", e.line, in_quotes(name)));
         if (std::find(std::begin(metadata_names), std::end(metadata_names), name) != std::end(metadata_names))
             model_.metadata.emplace_back(name, "");
         else if (name != "Application" && name != "ModificationDate")
@@ -245,23 +265,40 @@ class ModelReader {
         all.append(text.substr(0, most - std::min(most, all.size())));
     }
 
-    /// Notes that a resource has this id. is_other: a resource that is not read.
-    void claim(const Element& e, std::uint32_t id, bool is_other) {
-        if (is_other) others_.insert(id);
-        if (!ids_.insert(id).second)
-            model_.faults.push_back(
-                fmt::format("line {}: two resources have the id {}, which must be unique", e.line, id));
+    /// Notes the kind of the resource with this id.
+    void claim(const Element& e, std::uint32_t id, ResourceKind kind) {
+        const auto [at, fresh] = resources_.try_emplace(id, Resource{kind, e.line, none});
+        if (fresh) return;
+        if (kind == ResourceKind::object && at->second.kind == kind)
+            breaks_rule(e, fmt::format("there are two objects {}", id));
+        breaks_rule(e, fmt::format("two resources have the id {}, which must be unique", id));
+    }
+    /// Resources that are not read.
+    void other_resource(const Element& e) {
+        const auto id = e.find("id");
+        if (!id) return;
+        const std::uint32_t number = natural(e, "id", *id);
+        const bool composites = e.name == "compositematerials" && e.space == material_space;
+        claim(e, number, composites ? ResourceKind::composites : ResourceKind::other);
+        if (!composites) return;
+        resources_[number].materials = natural(e, "matid");
+        static_cast<void>(naturals(e, "matindices"));
     }
 
     void object(const Element& e) {
         const std::uint32_t id = natural(e, "id");
-        const auto [at, fresh] = model_.objects.try_emplace(id);
-        if (!fresh) fail(e, fmt::format("there are two objects {}", id));
-        claim(e, id, false);
-        object_ = &at->second;
+        claim(e, id, ResourceKind::object);
+        object_ = &model_.objects[id];
         object_->name = e.find("name").value_or("");
         object_->part_number = e.find("partnumber").value_or("");
         object_->type = trimmed(e.find("type").value_or("model"));
+        constexpr std::string_view types[] = {"model", "solidsupport", "support", "surface", "other"};
+        if (std::find(std::begin(types), std::end(types), object_->type) == std::end(types))
+            breaks_rule(e, fmt::format("object {} has the type {}, expected model, solidsupport, support, "
+                                       "surface or other",
+                                       id, in_quotes(object_->type)));
+        if (e.find("pindex") && !e.find("pid"))
+            breaks_rule(e, fmt::format("object {} has a pindex without a pid", id));
         object_->properties.group = natural_or(e, "pid", none);
         object_->properties.index.fill(natural_or(e, "pindex", object_->properties.group == none ? none : 0));
     }
@@ -273,20 +310,19 @@ class ModelReader {
         object_->positions.push_back({real(e, "x"), real(e, "y"), real(e, "z")});
     }
 
-    /// Slicers paint supports, seams and filaments on triangles, in attributes of their own.
-    void note_painting(const Element& e) {
+    /// Names the attributes that are not read. Slicers paint supports, seams and filaments on triangles.
+    void note_attributes(const Element& e, std::initializer_list<std::string_view> own) {
         for (const char** a = e.attributes; *a; a += 2) {
             std::string_view name(*a);
-            const bool own = name.size() == 2 ? (name[0] == 'v' || name[0] == 'p') : name == "pid";
-            if (own) continue;
+            if (std::find(own.begin(), own.end(), name) != own.end()) continue;
             if (const auto bar = name.rfind('|'); bar != std::string_view::npos) name.remove_prefix(bar + 1);
-            ++model_.skipped[fmt::format("{} of triangle", name)];
+            ++model_.skipped[fmt::format("{} of {}", name, e.name)];
         }
     }
     void triangle(const Element& e) {
         for (const char* corner : {"v1", "v2", "v3"}) object_->corners.push_back(natural(e, corner));
         if (object_->corners.size() >= none - 3) beyond_limit(name_, "too many triangles");
-        note_painting(e);
+        note_attributes(e, {"v1", "v2", "v3", "p1", "p2", "p3", "pid"});
         Properties p;
         p.index[0] = natural_or(e, "p1", none);
         if (p.index[0] == none) {
@@ -302,16 +338,23 @@ class ModelReader {
 
     void group(const Element& e) {
         const std::uint32_t id = natural(e, "id");
-        const auto [at, fresh] = model_.groups.try_emplace(id);
-        if (!fresh) fail(e, fmt::format("there are two groups {}", id));
-        claim(e, id, false);
-        group_ = &at->second;
-        group_->materials = e.name == "basematerials";
+        const bool materials = e.name == "basematerials";
+        claim(e, id,
+              materials                ? ResourceKind::materials
+              : e.name == "colorgroup" ? ResourceKind::colours
+                                       : ResourceKind::points);
+        group_ = &model_.groups[id];
+        group_->materials = materials;
         if (e.name == "texture2dgroup") group_->texture = natural(e, "texid");
     }
     void texture(const Element& e) {
         const std::uint32_t id = natural(e, "id");
-        claim(e, id, false);
+        claim(e, id, ResourceKind::texture);
+        const std::string_view type = trimmed(e.find("contenttype").value_or("image/png"));
+        if (type != "image/png" && type != "image/jpeg")
+            breaks_rule(e,
+                        fmt::format("texture2d {} has the content type {}, expected image/png or image/jpeg",
+                                    id, in_quotes(type)));
         TextureImageFile& texture = model_.textures[id];
         texture.path = need(e, "path");
         const auto style = [&](const char* attribute) { return e.find(attribute).value_or("wrap"); };
@@ -335,8 +378,9 @@ class ModelReader {
 
     void layers(const Element& e) {
         const std::uint32_t id = natural(e, "id");
-        claim(e, id, false);
+        claim(e, id, ResourceKind::layers);
         layers_of_ = &layers_[id];
+        layers_of_->line = e.line;
         layers_of_->groups = naturals(e, "pids");
         if (layers_of_->groups.size() > most_layers)
             fail(e, fmt::format("multiproperties have more than {} layers", most_layers));
@@ -351,6 +395,11 @@ class ModelReader {
                 malformed(name_, 0, "E-3MF",
                           fmt::format("triangle {} of object {} refers to vertex {}, but the object has {}",
                                       c / 3, id, object.corners[c], object.positions.size()));
+        for (const Index end : object.beams)
+            if (end >= object.positions.size())
+                malformed(name_, 0, "E-3MF",
+                          fmt::format("a beam of object {} refers to vertex {}, but the object has {}", id,
+                                      end, object.positions.size()));
         std::set<std::uint32_t> missing;
         check(id, object.properties, none, missing);
         for (const Properties& p : object.triangles) check(id, p, object.properties.group, missing);
@@ -360,11 +409,12 @@ class ModelReader {
                 id, group));
     }
     void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise,
-               std::set<std::uint32_t>& missing) const {
+               std::set<std::uint32_t>& missing) {
         const std::uint32_t named = p.group == none ? otherwise : p.group;
+        blend(named);
         const auto group = model_.groups.find(named);
         if (group == model_.groups.end()) {
-            if (named != none && !others_.contains(named)) missing.insert(named);
+            if (named != none && !resources_.contains(named)) missing.insert(named);
             return;
         }
         for (const std::uint32_t index : p.index)
@@ -372,6 +422,16 @@ class ModelReader {
                 malformed(name_, 0, "E-3MF",
                           fmt::format("object {} refers to property {} of group {}, which has {}", id, index,
                                       group->first, group->second.size()));
+    }
+
+    /// Makes a group of the layers that an object uses. Layers that nothing uses may be wrong. Without known
+    /// layers, no colour hides the material.
+    void blend(std::uint32_t id) {
+        const auto layers = layers_.find(id);
+        if (layers == layers_.end() || model_.groups.contains(id)) return;
+        const auto known = [&](std::uint32_t group) { return model_.groups.contains(group); };
+        if (std::any_of(layers->second.groups.begin(), layers->second.groups.end(), known))
+            model_.groups[id] = blended(layers->second, model_);
     }
 
     std::string name_; ///< shown in messages: "a.3mf/3D/3dmodel.model"
@@ -383,8 +443,8 @@ class ModelReader {
     int skipping_ = 0;              ///< the depth inside an unsupported element
     bool reads_metadata_ = false;
     std::map<std::string, std::string> spaces_;
-    std::set<std::uint32_t> ids_;    ///< of all resources
-    std::set<std::uint32_t> others_; ///< of resources that are not read
+    Resources resources_;                         ///< all with an id
+    std::set<std::string, std::less<>> metadata_; ///< the names so far
     Object* object_ = nullptr;
     Group* group_ = nullptr;
     std::map<std::uint32_t, Layers> layers_;

@@ -15,6 +15,16 @@ inline constexpr std::string_view material_space =
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 inline constexpr std::string_view production_space =
     "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+inline constexpr std::string_view lattice_space =
+    "http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02";
+/// The extensions that a file may require.
+inline constexpr std::string_view known_spaces[] = {
+    core_space,
+    material_space,
+    production_space,
+    lattice_space,
+    "http://schemas.microsoft.com/3dmanufacturing/beamlattice/balls/2020/07",
+    "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07"};
 
 /// The names of units in 3MF.
 struct UnitName {
@@ -43,6 +53,7 @@ struct Use { ///< a component, or a build item
     ObjectId object;
     Transform transform;
     bool printed = true; ///< false for items that PrusaSlicer and its kin show, but do not print
+    std::size_t line = 0;
 };
 
 struct Object {
@@ -51,6 +62,7 @@ struct Object {
     Properties properties;
     std::vector<Vec3> positions;
     std::vector<Index> corners;
+    std::vector<Index> beams;          ///< two ends each
     std::vector<Properties> triangles; ///< [triangles]; empty: all have the object's properties
     std::vector<Use> components;
 };
@@ -74,6 +86,7 @@ struct Group {
 /// One XML part of the archive.
 struct Model {
     Unit unit = Unit::mm;
+    bool has_build = false;
     std::map<std::uint32_t, Object> objects;
     std::map<std::uint32_t, Group> groups;
     std::map<std::uint32_t, TextureImageFile> textures;

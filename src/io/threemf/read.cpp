@@ -12,8 +12,10 @@
 #include "io/text.hpp"
 #include "io/threemf/corner_looks.hpp"
 #include "io/threemf/model.hpp"
+#include "io/threemf/rules.hpp"
 #include "io/threemf/slicer.hpp"
 #include "io/threemf/zip.hpp"
+#include "mesh/lines.hpp"
 #include "parallel/memory.hpp"
 
 #include <algorithm>
@@ -23,29 +25,6 @@ namespace facetmill::io::threemf {
 
 namespace {
 
-struct MainModel {
-    std::string path;
-    std::size_t count = 0; ///< of the models that the relationships name
-};
-
-/// The main model: from the archive's relationships, else the path that all writers use.
-MainModel main_model(Archive& archive, const std::string& name) {
-    std::string path = "/3D/3dmodel.model";
-    std::size_t count = 0;
-    if (const auto relations = archive.file("/_rels/.rels"))
-        read_xml(*relations, name + "/_rels/.rels",
-                 {[&](const Element& e) {
-                      const auto type = e.find("Type"), target = e.find("Target");
-                      if (!target || type != "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")
-                          return;
-                      if (++count == 1) path = *target;
-                  },
-                  [] {},
-                  {}});
-    if (!path.starts_with('/')) path = "/" + path;
-    return {std::move(path), count};
-}
-
 class SceneMaker {
   public:
     SceneMaker(const Input& input, const ReadSettings& settings, ReadLog& log)
@@ -53,21 +32,20 @@ class SceneMaker {
           volumes_(archive_, input.name()), document_(input.name()) {}
 
     Scene make() {
-        const auto [path, count] = main_model(archive_, name_);
-        if (count > 1)
-            faults_.push_back(fmt::format("its relations name {} models: only '{}' is read", count, path));
-        model(path);
-        Model& main = models_.at(path);
-        main_ = path;
+        main_ = main_model(archive_, name_);
+        check_relations_of(archive_, name_, main_);
+        model(main_);
+        Model& main = models_.at(main_);
+        if (!main.has_build) malformed(name_ + main_, 0, "E-3MF", "<model> has no <build>", hint_for_rules);
         volumes_.remove_from(main.objects, left_out_);
         scene_.unit = main.unit;
         scene_.up = UpAxis::z;
         std::vector<Use> items = main.items;
         if (items.empty()) {
-            items = unused(main, path);
+            items = unused(main, main_);
             faults_.emplace_back("it builds no objects, so all objects that no other object uses are read");
         }
-        for (const Use& item : items) warn_of_item(item);
+        for (const Use& item : items) check_item(item);
         place_items(items);
         if (scene_.parts.empty() && !left_out_.empty()) {
             reads_all_types_ = true;
@@ -112,7 +90,7 @@ class SceneMaker {
                 if (use.object.path == path) components.insert(use.object.id);
         std::vector<Use> items;
         for (const auto& [id, object] : model.objects)
-            if (!components.contains(id)) items.push_back({{path, id}, {}, true});
+            if (!components.contains(id)) items.push_back({{path, id}, {}});
         return items;
     }
 
@@ -127,7 +105,8 @@ class SceneMaker {
         const auto found = there.objects.find(use.object.id);
         if (found == there.objects.end())
             malformed(name_, 0, "E-3MF",
-                      fmt::format("there is no object {} in '{}'", use.object.id, use.object.path));
+                      fmt::format("there is no object {} in '{}'", use.object.id, use.object.path),
+                      hint_for_rules);
         if (open_.size() >= deepest || std::find(open_.begin(), open_.end(), use.object) != open_.end())
             malformed(name_, 0, "E-3MF",
                       fmt::format("object {} is a component of itself, or nested deeper than {} levels",
@@ -160,7 +139,21 @@ class SceneMaker {
         if (known != first_part_.end())
             require_memory(bytes_of(object), "copying the meshes of items", "use a machine with more memory");
         Mesh mesh = known == first_part_.end() ? mesh_of(id, object) : scene_.parts[known->second].mesh;
-        first_part_.emplace(id, scene_.parts.size());
+        if (known == first_part_.end() && !object.beams.empty()) {
+            mesh.lines = object.beams;
+            static_cast<void>(split_lines(mesh)); // without vertices that only beams use
+        }
+        if (!object.corners.empty() || object.beams.empty()) {
+            first_part_.emplace(id, scene_.parts.size());
+            add_part(std::move(mesh), world, name);
+        }
+        if (object.beams.empty()) return;
+        Mesh beams;
+        beams.positions = object.positions;
+        beams.lines = object.beams;
+        add_part(split_lines(beams), world, name);
+    }
+    void add_part(Mesh mesh, const Transform& world, const std::string& name) {
         Part& part = scene_.parts.emplace_back();
         part.name = name;
         part.mesh = std::move(mesh);
@@ -288,12 +281,14 @@ class SceneMaker {
             }
     }
 
-    void warn_of_item(const Use& item) {
+    void check_item(const Use& item) {
         const auto& objects = model(item.object.path).objects;
         const auto found = objects.find(item.object.id);
         if (found != objects.end() && found->second.type == "other")
-            faults_.push_back(
-                fmt::format("it builds object {} of type 'other', which 3MF forbids", item.object.id));
+            malformed(name_ + main_, static_cast<std::int64_t>(item.line), "E-3MF",
+                      fmt::format("<item> builds object {}, whose type is 'other', which 3MF does not allow",
+                                  item.object.id),
+                      hint_for_rules);
     }
 
     /// Supports, modifiers and similar objects, which are not part of the product.
@@ -406,7 +401,7 @@ std::pair<std::vector<NamedImage>, bool> materials_of(const std::filesystem::pat
 /// Reads only the unit, which is at the start of the model.
 void peek(const Input& input, FileHeader& header) {
     Archive archive(input.bytes(), input.name());
-    const std::string path = main_model(archive, input.name()).path;
+    const std::string path = main_model(archive, input.name());
     if (const auto xml = archive.file(path)) header.unit = unit_of_model(*xml, input.name(), path);
     if (input.path().empty()) return;
     header.images = [file = input.path()] { return materials_of(file).first; };

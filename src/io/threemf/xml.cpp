@@ -31,7 +31,7 @@ struct Session {
 #endif
     }
     [[noreturn]] void fail(const std::string& message) const {
-        malformed(name, static_cast<int>(std::min<std::size_t>(line(), INT32_MAX)), "E-3MF", message);
+        malformed(name, static_cast<std::int64_t>(line()), "E-3MF", message, hint_for_rules);
     }
     template <class Body>
     void guarded(Body&& body) {

@@ -8,6 +8,10 @@
 
 namespace facetmill::io::threemf {
 
+/// The hint of errors with a place in the XML.
+inline constexpr const char* hint_for_rules =
+    "export the file again, or unzip it, correct this place, and zip it again";
+
 /// The start of an element. It is valid until the next element.
 struct Element {
     std::string_view space; ///< the namespace URI: "http://..."

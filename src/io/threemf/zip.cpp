@@ -116,8 +116,16 @@ std::vector<std::string> Archive::paths() const {
     return all;
 }
 
+namespace {
+std::string key_of(const std::string& path) {
+    return lower_case(path.starts_with('/') ? path.substr(1) : path);
+}
+} // namespace
+
+bool Archive::has(const std::string& path) const { return entries_.contains(key_of(path)); }
+
 std::optional<Bytes> Archive::file(const std::string& path) {
-    const auto found = entries_.find(lower_case(path.starts_with('/') ? path.substr(1) : path));
+    const auto found = entries_.find(key_of(path));
     if (found == entries_.end()) return {};
     const Entry& entry = found->second;
     if (number(entry.at, 4) != local_magic) fail(entry.at, fmt::format("expected the entry '{}'", path));

@@ -18,6 +18,8 @@ class Archive {
     /// and other compression methods. Throws a limit error (E-SIZE) if the total unpacked size is
     /// implausible for a mesh (see unpacked()).
     std::optional<Bytes> file(const std::string& path);
+    /// Whether there is an entry; compared as for file().
+    [[nodiscard]] bool has(const std::string& path) const;
     /// The paths of all entries as stored, sorted without case.
     [[nodiscard]] std::vector<std::string> paths() const;
 

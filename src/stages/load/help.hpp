@@ -18,7 +18,7 @@ Later files are converted to them.
 OBJ and OFF files can state both in comments in the first lines (`# unit: mm`, `# up: z`).
 PLY and binary STL files can state both in the header.
 
-Lines (l in OBJ, edges in PLY, line primitives in glTF) become separate parts.
+Lines (l in OBJ, edges in PLY, line primitives in glTF, beams in 3MF) become separate parts.
 Stages that work on faces leave them unchanged.
 Lines and points next to triangles in one glTF mesh get their own mesh and node.
 The option `lines` turns lines into tubes.

@@ -10,13 +10,13 @@ inline constexpr const char* details =
 These are images and accessors with equal bytes, equal samplers, textures and materials, exactly
 equal meshes, and vertices with equal positions and attributes.
 
-The option join merges parts with the same materials and attributes into the first of them.
+The option join merges parts that share a material and have the same attributes.
 It also merges primitives with the same material.
 
 The option prune removes unused materials, textures, samplers, images, meshes and accessors.
 It removes accessor bounds that glTF does not require.
 It also removes animation tracks that do not move a node (within 1e-6 of the scene's diagonal, or
-1e-5 for scales and quaternions).
+1e-5 for scales and quaternions). Other tracks that stay the same get a single key.
 Finally, it removes nodes that join, flatten and instance emptied, and groups that become empty.
 
 Other steps must be requested.

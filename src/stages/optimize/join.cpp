@@ -2,6 +2,7 @@
 
 #include "geometry/edit/equal_wedges.hpp"
 #include "io/gltf/gltf.hpp"
+#include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
 
 #include <algorithm>
@@ -22,21 +23,24 @@ std::vector<char> used_primitives(const Mesh& mesh) {
     return used;
 }
 
-/// The key that two meshes must share to be merged: materials and kinds of attributes. Empty for meshes
-/// whose primitives have further data.
-std::string kind_of(const Mesh& mesh) {
+std::set<Index> materials_of(const Mesh& mesh) {
     std::set<Index> materials;
-    for (const Primitive& p : mesh.primitives) {
-        if (!p.json.empty()) return "";
-        materials.insert(p.material);
-    }
+    for (const Primitive& p : mesh.primitives) materials.insert(p.material);
     if (materials.empty()) materials.insert(none);
-    std::set<std::string> attributes; // the attributes in any order
+    return materials;
+}
+
+/// The kinds of attributes, which two meshes must share to be merged. Empty for meshes whose primitives have
+/// further data.
+std::string kind_of(const Mesh& mesh) {
+    const auto has_data = [](const Primitive& p) { return !p.json.empty(); };
+    if (std::any_of(mesh.primitives.begin(), mesh.primitives.end(), has_data)) return "";
+    std::set<std::string> attributes{"of"}; // in any order
     for (const Attribute& a : mesh.attributes)
         if (a.name != primitive_attribute)
             attributes.insert(fmt::format("{} {} {} {} {} {}", a.name, int(a.domain), int(a.role),
                                           a.components, a.normalised, a.data.index()));
-    return fmt::format("{} | {}", fmt::join(materials, " "), fmt::join(attributes, ", "));
+    return fmt::format("{}", fmt::join(attributes, ", "));
 }
 
 /// The scale of a transform along all directions, to a millionth. Equal keys keep lengths equal.
@@ -76,17 +80,24 @@ bool join_primitives(Mesh& mesh) {
 }
 
 std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<std::size_t>& candidates) {
-    std::map<std::string, JoinedParts> by_kind;
+    std::map<std::pair<std::string, Index>, Index> known; // the first candidate of a kind with a material
+    DisjointSets sets(static_cast<Index>(candidates.size()));
     const auto thick = io::thicknesses(scene);
-    for (const std::size_t i : candidates) {
+    for (Index c = 0; c < candidates.size(); ++c) {
+        const std::size_t i = candidates[c];
         std::string kind = kind_of(scene.parts[i].mesh);
         if (kind.empty()) continue;
         if (!thick[i].empty()) kind += scale_key(scene.parts[i].transform);
-        const auto [group, first] = by_kind.try_emplace(kind, JoinedParts{i, {}});
-        if (!first) group->second.others.push_back(i);
+        for (const Index material : materials_of(scene.parts[i].mesh))
+            sets.join(known.try_emplace({kind, material}, c).first->second, c);
+    }
+    std::map<Index, JoinedParts> by_set;
+    for (Index c = 0; c < candidates.size(); ++c) {
+        const auto [group, first] = by_set.try_emplace(sets.find(c), JoinedParts{candidates[c], {}});
+        if (!first) group->second.others.push_back(candidates[c]);
     }
     std::vector<JoinedParts> groups;
-    for (auto& [kind, group] : by_kind)
+    for (auto& [set, group] : by_set)
         if (!group.others.empty()) groups.push_back(std::move(group));
     std::sort(groups.begin(), groups.end(),
               [](const JoinedParts& a, const JoinedParts& b) { return a.first < b.first; });
@@ -99,6 +110,7 @@ groups_standing_together(const Scene& scene, const std::vector<std::vector<std::
     for (const std::vector<std::size_t>& parts : parts_of_meshes) {
         std::string kind = kind_of(scene.parts[parts.front()].mesh);
         if (kind.empty()) continue;
+        kind += fmt::format(" | {} |", fmt::join(materials_of(scene.parts[parts.front()].mesh), " "));
         for (const std::size_t i : parts)
             for (const auto& row : scene.parts[i].transform.m)
                 for (const double x : row) kind += fmt::format(" {}", x);

@@ -1,5 +1,5 @@
 #pragma once
-// Joins parts that have the same materials and attributes.
+// Joins parts that share a material and have the same attributes.
 
 #include "mesh/scene.hpp"
 

@@ -45,7 +45,7 @@ void declare(Declare<OptimizeOptions>& d) {
     d.option("instance_min", &OptimizeOptions::instance_min,
              "The minimum number of parts with the same mesh that become instances.")
         .between(2, 65536);
-    d.option("join", &OptimizeOptions::join, "Joins parts that have the same materials.");
+    d.option("join", &OptimizeOptions::join, "Joins parts that share a material.");
     d.option("join_shared", &OptimizeOptions::join_shared,
              "Also joins parts that share their mesh with others: fewer draw calls, but more bytes.");
     d.option("prune", &OptimizeOptions::prune, "Removes unused items.");
@@ -433,9 +433,9 @@ void optimize(Optimization w) {
     if (w.o.flatten) flatten(w);
     if (w.o.instance) instance(w);
     if (w.o.join) join_parts(w);
+    if (w.o.prune) drop_tracks(w);
     if (w.o.dedup)
         for (auto& tidy : w.tidies) w.report.equal_accessors += tidy.merge_equal_accessors(w.o.keep_names);
-    if (w.o.prune) drop_tracks(w);
     erase(w);
     w.report.draw_calls_after = draw_calls_of(w.scene);
     w.report.parts_after = w.scene.parts.size();

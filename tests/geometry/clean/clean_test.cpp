@@ -131,6 +131,17 @@ TEST_CASE("clean keeps one of equal faces", "[geometry]") {
     CHECK(r.mesh.corners == shapes::tetrahedron().corners);
 }
 
+TEST_CASE("faces that a morph target moves apart are no duplicates", "[geometry]") {
+    Mesh m;
+    m.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    m.wedge_vertex = {0, 1, 2, 0, 1, 2, 0, 1, 2};
+    m.corners = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    std::vector<float> moves(27, 0);
+    for (std::size_t i = 9; i < 27; ++i) moves[i] = 2; // of the second and the third face
+    m.attributes.push_back({"morph0_POSITION", Domain::wedge, Role::morph_vector, 3, false, moves});
+    CHECK(cleaned(m).mesh.face_count() == 2);
+}
+
 TEST_CASE("clean removes a wall between two solids", "[geometry]") {
     // Two tetrahedra on the two sides of the triangle 0 1 2.
     const Mesh mesh = triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}},

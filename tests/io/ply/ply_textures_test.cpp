@@ -69,3 +69,17 @@ TEST_CASE("a PLY's texture that is missing or has no coordinates is said", "[io]
     REQUIRE(log.warnings.size() == 1);
     CHECK(log.warnings[0].message.find("no texture coordinates") != std::string::npos);
 }
+
+TEST_CASE("texture coordinates of a PLY that are too few for their face are named", "[io]") {
+    io::ReadLog log;
+    const Scene scene =
+        read_bytes(to_bytes(ply("", "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 4 0 0 1 1\n", false)), "ply", &log);
+    CHECK(scene.parts.at(0).mesh.find("TEXCOORD_0", Domain::wedge));
+    REQUIRE(log.warnings.size() == 1);
+    CHECK(log.warnings[0].message ==
+          "texture coordinates of 1 face are skipped, because they do not have two "
+          "numbers for each corner");
+    io::ReadLog none_given;
+    read_bytes(to_bytes(ply("", "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 0\n", false)), "ply", &none_given);
+    CHECK(none_given.warnings.empty());
+}

@@ -89,3 +89,15 @@ TEST_CASE("an STL without a count is read whole, and one with too few triangles 
               read_bytes(binary_stl("", {0, 0, 0, 0}, 5), "stl");
           }).starts_with("malformed [E-STL]"));
 }
+
+TEST_CASE("words after the end of an STL facet are named", "[io]") {
+    std::string text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                       "endloop\nendfacet color 31\nendsolid a\n";
+    io::ReadLog log;
+    CHECK(read_bytes(to_bytes(text), "stl", &log).parts.at(0).mesh.face_count() == 1);
+    CHECK(ids_of(log) == std::vector<std::string>{"W-SKIPPED"});
+    io::ReadLog plain;
+    text.erase(text.find(" color 31"), 9);
+    read_bytes(to_bytes(text), "stl", &plain);
+    CHECK(plain.warnings.empty());
+}

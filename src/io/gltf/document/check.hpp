@@ -29,6 +29,10 @@ class Breaches {
     std::vector<std::string> first_;
 };
 
+/// Writes the integers of the members without a fraction, which glTF allows (`1.0`). Unknown extensions and
+/// extras stay. Returns true if the document has changed.
+bool make_integers(Json& document);
+
 /// Checks the types, the ranges and the references of all members. Throws malformed (E-GLTF) at a value of a
 /// wrong type, at a missing member, and at a reference to nothing, except in scenes: such a document has no
 /// meaning.

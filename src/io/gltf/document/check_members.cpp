@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <span>
 
 namespace facetmill::io::gltf {
@@ -472,7 +473,56 @@ class MemberCheck {
     const Json* samplers_ = nullptr; ///< of the animation
 };
 
+/// The names of members that are integers or lists of them, in some kind of object.
+const std::set<std::string_view>& integer_members() {
+    static const auto all = [] {
+        std::set<std::string_view> names;
+        for (const Member& m : members)
+            if (m.type == Type::integer || m.type == Type::reference || m.type == Type::references)
+                names.insert(m.key);
+        // Of extensions that the table does not have.
+        for (const char* name : {"attribute", "texture", "featureCount", "nullFeatureId", "propertyTable",
+                                 "propertyTables", "propertyTextures", "mergeIndices", "mergeValues"})
+            names.insert(name);
+        return names;
+    }();
+    return all;
+}
+
+bool make_integer(Json& number) {
+    constexpr double most = 9007199254740992.0; // every smaller integer is a double
+    if (!number.is_number_float()) return false;
+    const auto x = number.get<double>();
+    if (!(x >= 0 && x < most && x == std::floor(x))) return false;
+    number = static_cast<std::uint64_t>(x);
+    return true;
+}
+
+/// is_map: all members are references by name.
+bool make_integers_in(Json& json, bool is_map) {
+    bool changed = false;
+    if (json.is_array()) {
+        for (Json& element : json)
+            if (element.is_structured()) changed |= make_integers_in(element, is_map);
+        return changed;
+    }
+    for (auto& [key, value] : json.get_ref<Json::object_t&>()) {
+        if (key == "extras") continue;
+        const bool named = is_map || integer_members().contains(key);
+        if (value.is_structured()) {
+            if (named && value.is_array())
+                for (Json& element : value) changed |= make_integer(element);
+            changed |= make_integers_in(value, key == "attributes" || key == "targets");
+        } else if (named) {
+            changed |= make_integer(value);
+        }
+    }
+    return changed;
+}
+
 } // namespace
+
+bool make_integers(Json& document) { return document.is_object() && make_integers_in(document, false); }
 
 void check_members(const Json& document, Breaches& breaches) {
     MemberCheck(document, breaches).object(JsonCursor(document, ""), "document");

@@ -7,6 +7,8 @@
 
 namespace facetmill::io::gltf {
 
+inline constexpr const char* variants_extension = "KHR_materials_variants";
+
 /// Textures are referenced by materials ("...Texture"), by sets of feature ids ("texture"), and by everything
 /// that reads their channels.
 void visit_texture_references(Json& json, const std::function<void(Json&)>& visit);

@@ -122,6 +122,27 @@ std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
     return frames;
 }
 
+bool drop_further_parents(Json& document, const std::vector<NodeFrame>& frames) {
+    bool dropped = false;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+        const auto children = document["nodes"][n].find("children");
+        if (children == document["nodes"][n].end() || !children->is_array()) continue;
+        std::set<std::size_t> own;
+        Json kept = Json::array();
+        for (const Json& child : *children)
+            if (const auto c = child.get<std::size_t>();
+                c < frames.size() && frames[c].parent == static_cast<int>(n) && own.insert(c).second)
+                kept.push_back(child);
+        if (kept.size() == children->size()) continue;
+        dropped = true;
+        if (kept.empty())
+            document["nodes"][n].erase("children");
+        else
+            *children = std::move(kept);
+    }
+    return dropped;
+}
+
 std::vector<bool> shown_nodes(const Json& document) {
     const std::size_t count = count_of(document, "nodes"), scenes = count_of(document, "scenes");
     std::vector<bool> shown(count, scenes == 0);
@@ -227,8 +248,6 @@ Drawn kind_of_mesh(const JsonCursor& mesh) {
 bool makes_triangles(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::triangles; }
 
 bool has_triangles(const JsonCursor& mesh) { return kind_of_mesh(mesh) == Drawn::triangles; }
-
-bool makes_lines(const JsonCursor& primitive) { return kind_of(primitive) == Drawn::lines; }
 
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
     std::vector<Placement> all;

@@ -35,6 +35,10 @@ using Warn = std::function<void(const char*, std::string)>;
 /// The node indices, parents before children.
 [[nodiscard]] std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
 
+/// Leaves nodes with several parents under the first only, as node_frames does. Returns true if the document
+/// has changed.
+bool drop_further_parents(Json& document, const std::vector<NodeFrame>& frames);
+
 /// [nodes] true if the scene that viewers show (`scene`, or the first) contains the node, or if it is a level
 /// of detail of such a node. All nodes if the document has no scenes. Invalid references are skipped.
 [[nodiscard]] std::vector<bool> shown_nodes(const Json& document);
@@ -78,7 +82,6 @@ enum class Drawn { none, points, lines, triangles };
 [[nodiscard]] Drawn kind_of_mesh(const JsonCursor& mesh);
 bool makes_triangles(const JsonCursor& primitive);
 bool has_triangles(const JsonCursor& mesh);
-bool makes_lines(const JsonCursor& primitive);
 
 /// The document on which a written scene is based.
 struct BaseDocument {

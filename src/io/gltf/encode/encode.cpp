@@ -2,6 +2,7 @@
 
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/document/item_references.hpp"
 #include "io/gltf/encode/order.hpp"
 #include "io/gltf/numbers/alike.hpp"
 #include "io/gltf/read/features.hpp"
@@ -141,11 +142,11 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
     if (kept.contains("extras")) out["extras"] = kept["extras"];
     if (!kept.contains("extensions")) return out;
     for (const auto& [name, value] : kept["extensions"].items()) {
-        if (name == "KHR_materials_variants" &&
-            builder.json().value("extensions", Json::object()).contains(name)) {
-            out["extensions"][name] = value;
-            continue;
-        }
+        if (name == variants_extension && settings.variants)
+            if (Json variants = settings.variants(info, value); !variants.is_null()) {
+                out["extensions"][name] = std::move(variants);
+                continue;
+            }
         std::vector<std::string> lost;
         const Json features =
             settings.keep_features

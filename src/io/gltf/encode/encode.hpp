@@ -25,6 +25,8 @@ struct EncodeSettings {
     std::string name; ///< the part's name, for messages
     /// The document's index of a scene material; -1: none.
     std::function<int(Index)> material;
+    /// KHR_materials_variants of a primitive, with the document's numbers; null: it cannot stay.
+    std::function<Json(const Primitive&, const Json&)> variants;
 };
 
 /// The contents of a mesh object; its accessors and views are already in the builder.

@@ -89,7 +89,8 @@ std::optional<Stored> Streams::stored(std::size_t index, const std::string& path
     const bool turns = path == "turn" || (path == "rotation" && !has_half_turns(numbers));
     if (filters_ && floats && turns && numbers.components == 4) coded = quaternions(numbers);
     if (filters_ && floats && (path == "translation" || path == "weights"))
-        coded = exponential(numbers, exponent_of_range(numbers, path_bits), false);
+        coded = exponential(numbers,
+                            std::max(exponent_of_range(numbers, path_bits), finest_exponent(numbers)), false);
     if (filters_ && floats && path == "place")
         coded = exponential(numbers, std::max(exponent, finest_exponent(numbers)), false);
     if (coded && path == "weights")

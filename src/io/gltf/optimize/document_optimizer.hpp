@@ -71,10 +71,11 @@ class DocumentOptimizer {
     /// duplicates.
     std::size_t merge_equal_accessors(bool keep_names);
 
-    /// Erases animation tracks that never move a node away from its rest transform, unless another animation
-    /// moves the same property. Translations are compared within a length in the world, rotations and scales
-    /// within 1e-5. An animation keeps its duration. Returns the number of tracks. Call it before
-    /// erase_unused.
+    /// Erases animation tracks that never move a node away from its rest transform, unless another track
+    /// moves the same property. Other tracks with the same value at all times get a single key.
+    /// Translations are compared within a length in the world, rotations and scales within 1e-5. An
+    /// animation keeps its duration. Returns the number of erased tracks. Call it before
+    /// merge_equal_accessors and erase_unused.
     std::size_t drop_resting_tracks(double length);
 
     /// Moves nodes to the top of their scene, keeping their world transforms. `emptied` receives their

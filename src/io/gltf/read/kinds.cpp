@@ -25,7 +25,7 @@ struct Groups {
     std::vector<Apart> apart{};
 };
 
-Groups groups_of(const JsonCursor& mesh, bool lines) {
+Groups groups_of(const JsonCursor& mesh) {
     const Drawn main = kind_of_mesh(mesh);
     const JsonCursor primitives = mesh.at("primitives");
     Groups groups;
@@ -34,7 +34,7 @@ Groups groups_of(const JsonCursor& mesh, bool lines) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Json& primitive = primitives.at(i).json();
         const Drawn kind = kind_of(primitives.at(i));
-        if (kind == Drawn::lines && main == Drawn::triangles && lines)
+        if (kind == Drawn::lines && main == Drawn::triangles)
             of_lines.push_back(primitive);
         else if (kind == Drawn::points && (++points > 1 || main != Drawn::points))
             groups.apart.push_back(
@@ -146,11 +146,11 @@ void check_roots(const Json& document, std::size_t nodes) {
 
 } // namespace
 
-bool part_kinds(Json& document, bool lines) {
+bool part_kinds(Json& document) {
     std::map<std::size_t, Groups> split;
     const std::size_t meshes = count_of(document, "meshes");
     for (std::size_t m = 0; m < meshes; ++m)
-        if (Groups groups = groups_of(item(document, "meshes", m), lines); !groups.apart.empty())
+        if (Groups groups = groups_of(item(document, "meshes", m)); !groups.apart.empty())
             split.emplace(m, std::move(groups));
     if (split.empty()) return false;
     const auto frames =

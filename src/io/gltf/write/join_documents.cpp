@@ -10,7 +10,6 @@ namespace facetmill::io::gltf {
 namespace {
 
 constexpr const char* lights_extension = "KHR_lights_punctual";
-constexpr const char* variants_extension = "KHR_materials_variants";
 
 /// The lists that a document appends to another.
 constexpr const char* appended_lists[] = {"accessors", "animations", "buffers", "bufferViews", "cameras",

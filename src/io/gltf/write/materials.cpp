@@ -1,3 +1,4 @@
+#include "io/gltf/document/item_references.hpp"
 #include "io/gltf/write/patch.hpp"
 
 #include <algorithm>
@@ -119,7 +120,64 @@ void patch_sides(const Material& material, Json& json) {
         json["doubleSided"] = material.double_sided;
 }
 
+/// The number of the variant of another document in the document that is written, added by its name if new.
+std::optional<std::size_t> variant_for(MaterialCopies& copies, const Json& other, const Json& number) {
+    const Json::json_pointer place("/extensions/KHR_materials_variants/variants");
+    if (!number.is_number_unsigned() || !other.contains(place) ||
+        number.get<std::size_t>() >= other[place].size())
+        return {};
+    const Json& variant = other[place][number.get<std::size_t>()];
+    copies.patch.builder.use_extension(variants_extension, false);
+    Json& all = copies.patch.builder.json()["extensions"][variants_extension]["variants"];
+    if (!all.is_array()) all = Json::array();
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Json& known) {
+        return known.value("name", "") == variant.value("name", "");
+    });
+    const auto at = static_cast<std::size_t>(same - all.begin());
+    if (same == all.end()) all.push_back(variant);
+    return at;
+}
+
+/// The scene's material with this number in a document; none if a stage has removed it.
+Index material_of(const Scene& scene, int document, std::size_t number) {
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& m) {
+        return m.document == document && m.index >= 0 && static_cast<std::size_t>(m.index) == number;
+    });
+    return found == scene.materials.end() ? none : static_cast<Index>(found - scene.materials.begin());
+}
+
 } // namespace
+
+Json patch_variants(MaterialCopies& copies, const Primitive& primitive, int document, const Json& extension) {
+    const Scene& scene = copies.patch.scene;
+    if (primitive.material < scene.materials.size() && scene.materials[primitive.material].document >= 0)
+        document = scene.materials[primitive.material].document;
+    if (document < 0) return nullptr;
+    if (document == copies.patch.base) {
+        const Json& json = copies.patch.builder.json();
+        return json.contains("extensions") && json["extensions"].contains(variants_extension) ? extension
+                                                                                              : Json();
+    }
+    const Json& other = other_document(copies, document);
+    Json mappings = Json::array();
+    for (const Json& mapping : extension.value("mappings", Json::array())) {
+        const auto number = index_at(mapping, "material");
+        const Index material = number ? material_of(scene, document, *number) : none;
+        Json variants = Json::array();
+        if (material != none)
+            for (const Json& variant : mapping.value("variants", Json::array()))
+                if (const auto at = variant_for(copies, other, variant)) variants.push_back(*at);
+        if (variants.empty()) continue;
+        Json own = mapping;
+        own["variants"] = std::move(variants);
+        own["material"] = patch_material(copies, material);
+        mappings.push_back(std::move(own));
+    }
+    if (mappings.empty()) return nullptr;
+    Json own = extension;
+    own["mappings"] = std::move(mappings);
+    return own;
+}
 
 int patch_material(MaterialCopies& copies, Index index) {
     if (index >= copies.patch.scene.materials.size()) return -1;

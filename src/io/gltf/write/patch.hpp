@@ -104,6 +104,11 @@ void interleave_attributes(Patch& patch, const StoredMeshes& meshes);
 /// The document's index of a scene material, which is added if new; -1 for none.
 [[nodiscard]] int patch_material(MaterialCopies& copies, Index material);
 
+/// KHR_materials_variants of a primitive with the document's numbers. Variants of another document follow
+/// those of the document, by name. document: of the primitive's part. Null if no material is known.
+[[nodiscard]] Json patch_variants(MaterialCopies& copies, const Primitive& primitive, int document,
+                                  const Json& extension);
+
 /// Places image files according to the settings: in the document's buffer views, next to it under new names,
 /// or at their original location. Returns the files to write next to the output. stem: the output's stem;
 /// new file names start with it.

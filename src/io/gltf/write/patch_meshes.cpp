@@ -110,6 +110,9 @@ EncodeSettings settings_for(MaterialCopies& copies, const Part& part) {
     s.keep_exact = patch.settings.quantize.on;
     s.name = part.name;
     s.material = [&copies](Index m) { return patch_material(copies, m); };
+    s.variants = [&copies, document = part.document](const Primitive& primitive, const Json& extension) {
+        return patch_variants(copies, primitive, document, extension);
+    };
     // Feature numbers and tables are only valid in one document.
     for (std::size_t d = 0; d < patch.scene.documents.size(); ++d)
         if (static_cast<int>(d) != patch.base)
