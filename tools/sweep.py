@@ -31,7 +31,7 @@ SUFFIXES = {".drc", ".glb", ".gltf", ".gz", ".obj", ".off", ".ply", ".stl"}
 
 # What people ask of each stage. Those that are asked to take surface away may.
 STAGES = ["clean", "clean --weld exact --holes minimal --self_intersections all", "clip z=50% --cap", "clip x=50%",
-          "combine", "crumple 0.5%", "crumple 0.5% --self_intersections avoid", "ensure --faces.min 0", "generate icosphere",
+          "combine", "crumple 0.5%", "crumple 0.5% --self_intersections avoid", "ensure --faces.min 0", "bake 64", "look --pixels 32", "generate icosphere",
           "measure", "merge", "normals", "normals keep", "optimize", "orient", "probe 0,0,0", "relax 3", "relax --method implicit", "remesh 2%", "remesh --tolerance 1%", "render view.png",
           "section z=50%", "separate", "simplify 50%", "simplify --max_error 1%", "simplify 10% --method cluster",
           "split midpoint", "split --max_edge 5%", "textures 64 --format webp", "thicken 1%", "thicken 1% --mode edges", "tile 50%",
