@@ -63,7 +63,7 @@ std::vector<Map> maps_of(const BakeSource& source, const BakedMaps& maps) {
 Json material_json(const BakeSource& source, const BakedMaps& maps, const std::vector<Map>& all,
                    io::MaterialDocument& document) {
     Json json = {{"name", "baked"}, {"pbrMetallicRoughness", Json::object()}};
-    Json& pbr = json["pbrMetallicRoughness"];
+    Json pbr = Json::object();
     pbr["metallicFactor"] = static_cast<double>(maps.surface[2]) / 255;
     pbr["roughnessFactor"] = static_cast<double>(maps.surface[1]) / 255;
     for (const Map& map : all) {
@@ -79,7 +79,8 @@ Json material_json(const BakeSource& source, const BakedMaps& maps, const std::v
             json[name] = texture;
         }
     }
-    if (maps.glows) json["emissiveFactor"] = {1, 1, 1};
+    json["pbrMetallicRoughness"] = std::move(pbr);
+    if (maps.glows) json["emissiveFactor"] = Json::array({1, 1, 1});
     if (maps.glows && maps.emission_strength > 1)
         json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = maps.emission_strength;
     if (all_unlit(source)) json["extensions"]["KHR_materials_unlit"] = Json::object();

@@ -90,6 +90,23 @@ bool is_moved(const Json& node) {
            differs(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
 }
 
+/// Whether the node or one below it has a mesh. nodes: of the document, which may have cycles.
+bool has_mesh(const Json& nodes, std::size_t root) {
+    std::vector<std::size_t> open = {root};
+    std::set<std::size_t> seen = {root};
+    while (!open.empty()) {
+        const std::size_t i = open.back();
+        open.pop_back();
+        if (i >= nodes.size() || !nodes[i].is_object()) continue;
+        if (nodes[i].contains("mesh")) return true;
+        const Json children = list_at(nodes[i], "children");
+        for (const Json& child : children)
+            if (child.is_number_unsigned() && seen.insert(child.get<std::size_t>()).second)
+                open.push_back(child.get<std::size_t>());
+    }
+    return false;
+}
+
 } // namespace
 
 std::vector<std::string> moved_root_nodes(const Scene& scene) {
@@ -110,7 +127,7 @@ std::vector<std::string> moved_root_nodes(const Scene& scene) {
         for (const Json& root : roots) {
             if (!root.is_number_unsigned() || root.get<std::size_t>() >= nodes.size()) continue;
             const Json& node = nodes[root.get<std::size_t>()];
-            if (node.is_object() && is_moved(node))
+            if (node.is_object() && is_moved(node) && has_mesh(nodes, root.get<std::size_t>()))
                 names.push_back(node.contains("name") ? text_at(node, "name")
                                                       : fmt::format("nodes[{}]", root.get<std::size_t>()));
         }
