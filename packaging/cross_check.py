@@ -92,7 +92,7 @@ def commands(program, folder, meshes):
         yield from ((f'pipe --report r.json load {mesh} ! write {written}', '') for written in WRITTEN)
     for operation in ('union', 'difference', 'intersection'):
         yield f'pipe generate torus ! combine {operation} --with {own["quads"]} ! write o.stl', ''
-    for name in ('convert', 'lod-chain', 'quickstart', 'repair', 'scan-to-web', 'view', 'web'):
+    for name in ('convert', 'game-ready', 'lod-chain', 'quickstart', 'repair', 'scan-to-web', 'view', 'web'):
         yield f'run {name} -D input={own["scan"]} -D unit=mm -D up=z --output-dir out', ''
     yield f'diff --json {own["scan"]} {own["torus"]}', ''
     yield f'render {own["textured"]} o.png', ''

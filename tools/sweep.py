@@ -31,7 +31,7 @@ SUFFIXES = {".drc", ".glb", ".gltf", ".gz", ".obj", ".off", ".ply", ".stl"}
 
 # What people ask of each stage. FILE is the file itself. Those that are asked to take surface away may.
 STAGES = ["align FILE", "clean", "clean --hidden --smaller_than 1%", "clean --weld exact --holes minimal --self_intersections all", "clip z=50% --cap", "clip x=50%",
-          "combine", "crumple 0.5%", "crumple 0.5% --self_intersections avoid", "ensure --faces.min 0", "generate icosphere",
+          "combine", "crumple 0.5%", "crumple 0.5% --self_intersections avoid", "ensure --faces.min 0", "bake 64", "look --pixels 32", "generate icosphere",
           "hull", "hull --max_parts 8 --max_vertices 32", "hull capsule",
           "measure", "merge", "normals", "normals keep", "optimize", "orient", "probe 0,0,0", "relax 3", "relax --method implicit", "remesh 2%", "remesh --tolerance 1%", "render view.png",
           "section z=50%", "separate", "simplify 50%", "simplify --max_error 1%", "simplify 10% --method cluster",

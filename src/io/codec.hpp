@@ -139,6 +139,13 @@ struct Lattice {
     double step = 0;
 };
 
+/// Levels of detail in glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod).
+struct LevelSettings {
+    bool on = false;
+    double pixels = 1;                  ///< the error on the screen at which a level may replace a finer one
+    double width = 1920, height = 1080; ///< of the screen, in pixels
+};
+
 struct WriteSettings {
     bool ascii = false;      ///< PLY and STL: text instead of binary
     bool big_endian = false; ///< PLY
@@ -152,10 +159,10 @@ struct WriteSettings {
     bool whole_positions = false;
     TriangleOrder order = TriangleOrder::automatic; ///< glTF, without Draco
     bool mesh_manifold = false;                     ///< glTF: EXT_mesh_manifold
-    bool lods = false;   ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
-    std::string title{}; ///< the output's stem, for names inside the file
-    Textures textures = Textures::automatic; ///< glTF, OBJ
-    std::filesystem::path directory{};       ///< the output's directory, for Textures::reference
+    LevelSettings lods{};                           ///< glTF
+    std::string title{};                            ///< the output's stem, for names inside the file
+    Textures textures = Textures::automatic;        ///< glTF, OBJ
+    std::filesystem::path directory{};              ///< the output's directory, for Textures::reference
 
     std::optional<Box> drawn{}; ///< drawn_bounds of the scene, if they are known
 

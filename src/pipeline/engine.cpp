@@ -116,6 +116,8 @@ bool perform_stage(Engine& run, const Step& step, SceneState& flow, report::Stag
     if (step.info->loads) run.state.load_diagonal = diagonal(drawn.emplace(io::drawn_bounds(scene)));
     if (step.info->loads && run.keeps_loaded)
         run.state.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
+    if (step.info->loads && run.keeps_loaded_scene)
+        run.state.loaded_scene = std::make_shared<const Scene>(scene);
     run.cache.keep(step, flow, run.state, stage, before, drawn);
     flow.left = {*stage.after, std::move(surfaces), drawn};
     return true;

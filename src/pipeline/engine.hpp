@@ -47,8 +47,9 @@ struct Engine {
     RunState& state;
     Failures& failures;
     StageCache& cache;
-    std::vector<Watch> watches{}; ///< in calling order
-    bool keeps_loaded = false;    ///< a later step needs the scene as loaded
+    std::vector<Watch> watches{};    ///< in calling order
+    bool keeps_loaded = false;       ///< a later step needs the surface of the scene as loaded
+    bool keeps_loaded_scene = false; ///< a later step needs all of that scene
 
     report::RunRecord& record() const { return state.record; }
     /// Runs the steps on the scene. Returns false if the chain ended early or a check failed; the scene must

@@ -39,6 +39,12 @@ bool compares_with_load(const Steps& steps) {
     return any;
 }
 
+bool takes_from_load(const Steps& steps) {
+    bool any = false;
+    for_each_step(steps, [&](const Step& step) { any |= step.stage && step.stage->takes_from_load(); });
+    return any;
+}
+
 /// The record of a run before it begins.
 report::RunRecord record_of(const Plan& plan) {
     report::RunRecord record;
@@ -67,7 +73,8 @@ class Runner {
         state_.outputs.set(settings_.commit);
         record() = record_of(plan);
         engine_.keeps_loaded = compares_with_load(plan.steps);
-        if (engine_.keeps_loaded) cache_.keep_loads();
+        engine_.keeps_loaded_scene = takes_from_load(plan.steps);
+        if (engine_.keeps_loaded || engine_.keeps_loaded_scene) cache_.keep_loads();
         watch_trace(engine_, trace_);
         watch_progress(engine_);
         watch_invariants(engine_);
@@ -122,10 +129,10 @@ class Runner {
         const auto planned = [&] {
             on_cells_ = plan_cells(plan_, settings_.cells);
             if (settings_.cells.job) require_jobs(plan_, on_cells_);
-            if (on_cells_.steps > 0 && engine_.keeps_loaded)
+            if (on_cells_.steps > 0 && (engine_.keeps_loaded || engine_.keeps_loaded_scene))
                 throw Error(ErrorKind::usage, "E-CELLS",
-                            "a later step compares with the input, which is not in memory",
-                            "leave the comparison out, or give more memory");
+                            "a later step uses the input, which is not in memory",
+                            "leave this step out, or give more memory");
         };
         if (!failures_.guarded({}, "the plan", planned)) return false;
         if (on_cells_.steps == 0) return true;

@@ -62,8 +62,9 @@ struct RunState {
     report::RunRecord record;
     double load_diagonal = 0; ///< world diagonal of the scene after the last load, for "% of load"
     std::shared_ptr<const Surface>
-        loaded;            ///< the scene after the last load, when a contract compares with it
-    bool read_back = true; ///< decodes written files again and compares them
+        loaded; ///< the surface of the scene after the last load, when a contract compares with it
+    std::shared_ptr<const Scene> loaded_scene; ///< that scene, when a stage takes its materials
+    bool read_back = true;                     ///< decodes written files again and compares them
     SceneTrail trail;
     std::size_t scenes = 0; ///< numbers given to scenes
     /// Gives the scene another number. moved: the surface only moved, so it still fits its purpose.
@@ -141,6 +142,8 @@ class Context {
     void record_absent(std::string path) { run_.record.absent.push_back(std::move(path)); }
     /// The surface of the scene after the last load if a contract compares with it, otherwise null.
     const Surface* loaded() const { return run_.loaded.get(); }
+    /// The scene after the last load if a stage takes its materials, otherwise null.
+    const Scene* loaded_scene() const { return run_.loaded_scene.get(); }
     const Mark& where() const { return where_; }
     const std::string& name() const { return record_.name; }
 

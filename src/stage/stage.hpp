@@ -116,6 +116,8 @@ class Stage {
     virtual std::string judges_written() const { return {}; }
     /// True if these options compare with the scene as loaded.
     virtual bool compares_with_load() const { return false; }
+    /// True if these options take materials and attributes from the scene as loaded.
+    virtual bool takes_from_load() const { return false; }
     /// Like run, for a mesh larger than memory; only if info->works_on_cells.
     virtual void on_cells(CellFlow&, Context&) const {}
     /// The reason, in words, why these options need the mesh in memory.

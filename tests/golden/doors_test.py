@@ -74,7 +74,7 @@ class Doors(Case):
 
     def test_ready_pipelines_are_described(self):
         text = self.mill("new").stdout
-        for name in ("convert", "lod-chain", "quickstart", "repair", "scan-to-web", "view", "web"):
+        for name in ("convert", "game-ready", "lod-chain", "quickstart", "repair", "scan-to-web", "view", "web"):
             self.assertIn(f"\n{name}: ", text)
         web = self.mill("new", "--from", "web").stdout
         for word in ("web: ", "max_size", "integer", "2048", "needed", "(meshopt, draco, none)", "facetmill run web MESH"):

@@ -175,6 +175,8 @@ std::vector<Row> topology() {
             {"t_junctions: 0", scene_of(cracked()), scene_of(cube())},
             {"self_intersections: 0", scene_of(crossing()), scene_of(joined(cube(), cube(), {1, 1, 0}))},
             {"touching: 0", scene_of(joined(cube(), cube(), {1, 1, 0})), scene_of(crossing())},
+            {"hard_edges: 0", scene_of(cube()), scene_of(shapes::icosphere(1)), false},
+            {"hard_edges: 12", scene_of(grid(1, 1)), scene_of(cube()), false},
             {"folded_faces: 0", scene_of(folded_quad()), scene_of(cube())},
             {"coplanar_overlaps: 0", scene_of(folded_quad()), scene_of(crossing())}};
 }

@@ -358,6 +358,10 @@ TEST_CASE("validate says what counts towards a limit that fails, the most first"
     CHECK(limit_evidence("extensions: ['*']") == "passed");
     CHECK(limit_evidence("names: [body]").dump() == R"([{"part":"part"}])");
     CHECK(limit_evidence("parts: 0").dump() == R"([{"part":"part"}])");
+    CHECK(limit_evidence("texture_sides: {max: 64}").dump() ==
+          R"([{"image":"steel","width":100,"height":50}])");
+    CHECK(limit_evidence("texture_sides: {max: 100}") == "passed");
+    CHECK(limit_evidence("odd_textures: 1").size() == 2);
 }
 
 TEST_CASE("validate says which parts have most of what is too much", "[stages]") {

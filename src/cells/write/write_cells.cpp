@@ -253,7 +253,7 @@ std::optional<std::string> why_not_written(const io::Codec& codec, const io::Wri
         return fmt::format("{} cannot be written from cells, only binary PLY, STL and GLB can", codec.name);
     if (s.ascii) return "text cannot be written from cells";
     if (s.draco.on || s.quantize.on || s.meshopt.on) return "compression needs the whole mesh";
-    if (s.lods || s.mesh_manifold || s.order != io::TriangleOrder::automatic)
+    if (s.lods.on || s.mesh_manifold || s.order != io::TriangleOrder::automatic)
         return "lods, mesh_manifold and order need the whole mesh";
     return {};
 }

@@ -2,6 +2,7 @@
 // geometry/inspect/measures.hpp), and a row in tests/stages/validate_table_test.cpp.
 #include "geometry/inspect/measures.hpp"
 #include "geometry/measure/measure.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -41,6 +42,29 @@ double longest_boundary(const Mesh& mesh) {
     double most = 0;
     for (const BoundaryChain& c : boundary_chains(mesh)) most = std::max(most, c.length);
     return most;
+}
+
+/// Edges of two faces that meet at a right angle or a sharper one. Rounded coordinates may turn a face by a
+/// millionth.
+std::optional<double> hard_edges(const Measured& m) {
+    const Mesh& mesh = m.world;
+    const auto normal = [&](Index f) {
+        Vec3 sum;
+        const Index begin = mesh.face_begin(f);
+        for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
+            sum += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
+        return normalised(sum);
+    };
+    const EdgeTable edges = build_edges(mesh);
+    const std::vector<Index> faces = corner_faces(mesh);
+    double count = 0;
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto corners = edges.corners_of(e);
+        if (corners.size() != 2) continue;
+        const Vec3 a = normal(faces[corners[0]]), b = normal(faces[corners[1]]);
+        if (dot(a, a) > 0 && dot(b, b) > 0 && dot(a, b) <= 1e-6) ++count;
+    }
+    return count;
 }
 
 std::vector<std::string_view> unit_words() {
@@ -357,6 +381,11 @@ constexpr Property table[] = {
      .measure = [](const Measured& m) { return count_of(folded_faces(m.world)); },
      .locations = [](const Mesh& m,
                      const LocationQuery& q) { return locations_of_pairs(m, folded_faces(m), q.limit); }},
+    {.name = "hard_edges",
+     .also_called = "unbeveled_edges unbevelled_edges beveled",
+     .help = "Edges whose two faces meet at a right angle or a sharper one, without a bevel.",
+     .hint = "bevel these edges in the program that made the mesh",
+     .measure = hard_edges},
     {.name = "t_junctions",
      .help = "Vertices exactly on a boundary edge of another face.",
      .hint = "use clean to insert them into the edge (t_junctions)",

@@ -62,7 +62,7 @@ struct Texture {
     Texel sampled(double u, double v, const TextureFootprint& footprint) const;
 };
 
-/// The colour properties of a material. Ignores metalness and roughness, because the scene has no
+/// The properties of a material. Pictures ignore metalness and roughness, because the scene has no
 /// environment to reflect.
 struct MaterialLook {
     enum class Alpha { opaque, mask, blend };
@@ -70,7 +70,9 @@ struct MaterialLook {
     std::array<float, 4> base{1, 1, 1, 1};
     std::array<float, 3> emissive{0, 0, 0};
     Texture base_texture, normal_texture, emissive_texture, occlusion_texture;
+    Texture rough_texture; ///< green: roughness, blue: metalness; only if the resolver was asked for it
     float normal_scale = 1, occlusion_strength = 1, cutoff = 0.5f;
+    float roughness = 1, metalness = 1;
     Alpha alpha = Alpha::opaque;
     bool unlit = false; ///< KHR_materials_unlit
 };

@@ -593,7 +593,7 @@ Capabilities abilities(std::string companion) {
     const bool copies = !companion.empty();
     std::vector<WriteOption> options = gltf_mesh_options();
     options.insert(options.end(), {{"mesh_manifold", &WriteSettings::mesh_manifold},
-                                   {"lods", &WriteSettings::lods},
+                                   {"lods", [](const WriteSettings& s) { return s.lods.on; }},
                                    {"drop_names", &WriteSettings::drop_names}});
     return {.transforms = true,
             .skins = true,

@@ -41,9 +41,7 @@ const RegisterMessages gltf_messages{
      "part, at the position of the largest instance.",
      "Write glTF to keep the instances. `load: {path: ..., instances: expand}` makes each one a part, and "
      "`optimize: {instance: true}` makes instances of parts again."},
-    {"W-LODS",
-     "You asked `write` to link levels of detail, but the scene has none. Or the levels of a node changed, "
-     "so its screen coverage was removed.",
+    {"W-LODS", "You asked `write` to link levels of detail, but the scene has none.",
      "Create levels of detail with `simplify: {lods: [50%, 10%]}`."},
     {"W-MANIFOLD", "EXT_mesh_manifold cannot be read or written for a part.",
      "Read the reason in the message. `clean` makes a mesh manifold."},

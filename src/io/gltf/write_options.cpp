@@ -83,6 +83,18 @@ void declare_meshopt(Declare<MeshoptSettings>& d) {
     allow_truth(d);
 }
 
+void declare_levels(Declare<LevelSettings>& d) {
+    d.option(
+         "pixels", &LevelSettings::pixels,
+         "The error on the screen, in pixels, up to which a coarser level may be shown. "
+         "MSFT_screencoverage follows from it, from the size of the screen and from the measured distance "
+         "of each level from the finest one. It is the share of the screen under the bounding sphere.")
+        .above(0);
+    d.option("width", &LevelSettings::width, "The width of the screen in pixels.").above(0);
+    d.option("height", &LevelSettings::height, "The height of the screen in pixels.").above(0);
+    allow_truth(d);
+}
+
 } // namespace
 
 void declare_compression(Declare<WriteSettings>& d) {
@@ -133,9 +145,12 @@ void declare_layout(Declare<WriteSettings>& d) {
         "Removes names of nodes, meshes, images, skins and accessors from glTF, and the name of the "
         "original program (generator). Scenes, animations, cameras and materials keep their names, and so do "
         "nodes that have nothing else, because applications find them by name.");
-    d.option("lods", &WriteSettings::lods,
-             "Writes glTF with MSFT_lod. The parts X.lod1, X.lod2, ... become levels of detail of X instead "
-             "of separate nodes.");
+    declare_switched(
+        d, "lods", &WriteSettings::lods,
+        "Writes glTF with MSFT_lod. The parts X.lod1, X.lod2, ... become levels of detail of X "
+        "instead of separate nodes. Its extras get the sizes on the screen at which levels change "
+        "(MSFT_screencoverage) and the errors of the levels (lod_errors). Give true, or a map.",
+        declare_levels);
 }
 
 WriteOption draco_option() {

@@ -67,11 +67,11 @@ std::vector<std::uint8_t> packed_channels(const Pixels& image, int colour_type) 
 
 /// The library may jump out of this function, so no local may need a destructor.
 bool write_png(PngWriter& writer, const Pixels& image, int colour_type, int level,
-               const std::vector<std::uint8_t>& channels) {
+               const std::vector<std::uint8_t>& channels, int bits = 8) {
     if (setjmp(png_jmpbuf(writer.state)) != 0) return false;
     ::png_set_write_fn(writer.state, &writer, PngWriter::append, PngWriter::flush);
     ::png_set_IHDR(writer.state, writer.info, static_cast<png_uint_32>(image.width),
-                   static_cast<png_uint_32>(image.height), 8, colour_type, PNG_INTERLACE_NONE,
+                   static_cast<png_uint_32>(image.height), bits, colour_type, PNG_INTERLACE_NONE,
                    PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     ::png_set_filter(writer.state, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
     ::png_set_compression_level(writer.state, level);
@@ -268,7 +268,7 @@ bool is_opaque(const Pixels& image) {
 
 namespace {
 
-constexpr int smallest = 9, fastest = 1; // zlib levels
+constexpr int smallest = 9, quick = 4, fastest = 1; // zlib levels
 
 /// Returns no bytes if the result would be larger than `most` bytes.
 Bytes png_of_type(const Pixels& image, int colour_type, int level, std::size_t most = SIZE_MAX) {
@@ -298,6 +298,21 @@ Bytes repacked_png(const Pixels& image, std::size_t given) {
 } // namespace
 
 Bytes encoded_png(const Pixels& image) { return png_of_type(image, type_of(image), smallest); }
+
+Bytes encoded_png_quickly(const Pixels& image) { return png_of_type(image, type_of(image), quick); }
+
+Bytes encoded_png_16(const std::vector<std::uint16_t>& levels, std::size_t side, std::size_t channels) {
+    std::vector<std::uint8_t> bytes(2 * levels.size()); // big-endian, as in the file
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        bytes[2 * i] = static_cast<std::uint8_t>(levels[i] >> 8);
+        bytes[2 * i + 1] = static_cast<std::uint8_t>(levels[i] & 0xFF);
+    }
+    PngWriter writer(SIZE_MAX);
+    const Pixels frame{side, side, {}, false};
+    const int type = channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
+    if (!writer.info || !write_png(writer, frame, type, quick, bytes, 16)) no_memory_for("PNG");
+    return std::move(writer.out);
+}
 
 Bytes encoded_png_in_colour(const Pixels& image) {
     return png_of_type(image, PNG_COLOR_MASK_COLOR | alpha_type(image), smallest);

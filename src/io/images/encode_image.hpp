@@ -16,6 +16,11 @@ struct LossSettings {
 /// A PNG with as few channels as the image needs. Throws a limit error (E-MEMORY), as all these functions
 /// do.
 [[nodiscard]] Bytes encoded_png(const Pixels& image);
+/// The same, in a fifth of the time with a few percent more bytes.
+[[nodiscard]] Bytes encoded_png_quickly(const Pixels& image);
+/// A square PNG of 16 bits a channel, grey or with three colours. levels: side * side * channels.
+[[nodiscard]] Bytes encoded_png_16(const std::vector<std::uint16_t>& levels, std::size_t side,
+                                   std::size_t channels);
 /// A PNG with three channels, or four if any pixel is transparent, even if all pixels are grey.
 [[nodiscard]] Bytes encoded_png_in_colour(const Pixels& image);
 /// A progressive JPEG without alpha. It has a single channel if all pixels are grey.

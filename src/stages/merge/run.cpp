@@ -17,8 +17,11 @@ namespace facetmill::merge_stage {
 namespace {
 
 struct MergeOptions {
+    enum class Attributes { keep, none };
+
     std::string name;
     bool weld = false;
+    Attributes attributes = Attributes::keep;
 };
 
 void declare(Declare<MergeOptions>& d) {
@@ -26,6 +29,12 @@ void declare(Declare<MergeOptions>& d) {
         .primary();
     d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.")
         .also_called(weld_synonyms);
+    d.choice<MergeOptions::Attributes>(
+        "attributes", &MergeOptions::attributes,
+        {{"keep", MergeOptions::Attributes::keep, "attributes and materials of all parts"},
+         {"none", MergeOptions::Attributes::none,
+          "only the surface, without seams, for stages that make new attributes: unwrap and bake"}},
+        "The attributes of the joined part.");
 }
 
 struct MergeReport {
@@ -46,6 +55,16 @@ void mark_group(Mesh& mesh, std::uint32_t number) {
     mesh.drop("group", Domain::face);
     mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false,
                                std::vector<std::uint32_t>(mesh.face_count(), number)});
+}
+
+/// Drops attributes, seams and materials.
+void drop_attributes(Mesh& mesh) {
+    mesh.attributes.clear();
+    mesh.primitives.clear();
+    mesh.line_primitive.clear();
+    for (std::vector<Index>* wedges : {&mesh.corners, &mesh.lines})
+        for (Index& w : *wedges) w = mesh.vertex_of_wedge(w);
+    mesh.wedge_vertex.clear();
 }
 
 std::string name_beside(const std::vector<Part>& others, const std::string& wanted) {
@@ -127,9 +146,13 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
         context.attribute_changes(part, drop_skin(part.mesh, "merged parts have no skin"));
         mark_group(part.mesh, static_cast<std::uint32_t>(report.merged.size()));
         report.merged.push_back(part.name);
+        const bool keeps = o.attributes == MergeOptions::Attributes::keep;
+        using Kind = AttributeChange::Kind;
         for (const auto& a : part.mesh.attributes)
-            context.attribute_changes(part, {{a.name, a.domain, AttributeChange::Kind::kept,
-                                              "other parts get white, their own normals, nan, or zero"}});
+            context.attribute_changes(
+                part, {{a.name, a.domain, keeps ? Kind::kept : Kind::dropped,
+                        keeps ? "other parts get white, their own normals, nan, or zero" : "as asked"}});
+        if (!keeps) drop_attributes(part.mesh);
         if (joined) {
             append(joined->mesh, part.mesh);
             continue;

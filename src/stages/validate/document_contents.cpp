@@ -72,6 +72,69 @@ std::vector<DocumentImage> images_of(const Scene& scene) {
     return images;
 }
 
+namespace {
+
+/// Whether a member of a node is a list of numbers other than these.
+bool differs(const Json& node, const char* key, const std::vector<double>& usual) {
+    if (!node.contains(key)) return false;
+    const Json& values = node[key];
+    if (!values.is_array() || values.size() != usual.size()) return false;
+    for (std::size_t i = 0; i < usual.size(); ++i)
+        if (!values[i].is_number() || values[i].get<double>() != usual[i]) return true;
+    return false;
+}
+
+bool is_moved(const Json& node) {
+    return differs(node, "translation", {0, 0, 0}) || differs(node, "rotation", {0, 0, 0, 1}) ||
+           differs(node, "scale", {1, 1, 1}) ||
+           differs(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+}
+
+/// Whether the node or one below it has a mesh. nodes: of the document, which may have cycles.
+bool has_mesh(const Json& nodes, std::size_t root) {
+    std::vector<std::size_t> open = {root};
+    std::set<std::size_t> seen = {root};
+    while (!open.empty()) {
+        const std::size_t i = open.back();
+        open.pop_back();
+        if (i >= nodes.size() || !nodes[i].is_object()) continue;
+        if (nodes[i].contains("mesh")) return true;
+        const Json children = list_at(nodes[i], "children");
+        for (const Json& child : children)
+            if (child.is_number_unsigned() && seen.insert(child.get<std::size_t>()).second)
+                open.push_back(child.get<std::size_t>());
+    }
+    return false;
+}
+
+} // namespace
+
+std::vector<std::string> moved_root_nodes(const Scene& scene) {
+    std::vector<std::string> names;
+    std::set<int> used;
+    for (const Part& part : scene.parts) {
+        if (part.document >= 0 && part.node >= 0)
+            used.insert(part.document);
+        else if (!part.transform.identity())
+            names.push_back(part.name);
+    }
+    for (const int d : used) {
+        const Json json = parse_json(scene.documents[static_cast<std::size_t>(d)]->json, Broken::discarded);
+        const Json nodes = list_at(json, "nodes"), scenes = list_at(json, "scenes");
+        const std::size_t shown = number_at(json, "scene");
+        if (shown >= scenes.size()) continue;
+        const Json roots = list_at(scenes[shown], "nodes");
+        for (const Json& root : roots) {
+            if (!root.is_number_unsigned() || root.get<std::size_t>() >= nodes.size()) continue;
+            const Json& node = nodes[root.get<std::size_t>()];
+            if (node.is_object() && is_moved(node) && has_mesh(nodes, root.get<std::size_t>()))
+                names.push_back(node.contains("name") ? text_at(node, "name")
+                                                      : fmt::format("nodes[{}]", root.get<std::size_t>()));
+        }
+    }
+    return names;
+}
+
 std::vector<DocumentExtension> extensions_of(const Scene& scene) {
     std::set<std::pair<std::string, std::string>> used;
     for (const auto& d : scene.documents)

@@ -24,8 +24,24 @@ Rows sound_rows() {
     return rows;
 }
 
+bool is_asset(Profile profile) { return profile >= Profile::shop; }
+
+/// Most mobile devices draw 100,000 triangles fluently: Khronos, "Asset Creation Guidelines" (3D Commerce).
+Rows asset_rows(Profile profile) {
+    if (profile == Profile::shop || profile == Profile::ar)
+        return {{"triangles", {.min = 1, .max = 100000, .truth = {}}},
+                {"uvs_in_range", yes},
+                {"uv_overlaps", no_more_than_none}};
+    return {{"joint_count", {.min = {}, .max = 256, .truth = {}}}};
+}
+
 Rows rows_of(Profile profile) {
     const Rows sound = sound_rows();
+    if (is_asset(profile)) {
+        Rows rows = rows_of(Profile::web);
+        add(rows, asset_rows(profile));
+        return rows;
+    }
     switch (profile) {
     case Profile::none:
         return sound;
@@ -40,6 +56,7 @@ Rows rows_of(Profile profile) {
     case Profile::solid:
     case Profile::printing:
     case Profile::simulation:
+    default:
         break;
     }
     Rows rows = sound;
@@ -62,9 +79,30 @@ Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits
     for (const auto& [name, bound] : rows_of(profile)) {
         const bool known = std::any_of(given.all.begin(), given.all.end(),
                                        [&name = name](const Assertion& a) { return a.property == name; });
-        // The web profile judges optional attributes only if they exist.
-        if (!known) given.all.push_back({name, bound, where, profile == Profile::web});
+        // Profiles of assets judge optional attributes only if they exist.
+        if (!known) given.all.push_back({name, bound, where, profile == Profile::web || is_asset(profile)});
     }
+    return given;
+}
+
+SceneLimits profiled(SceneLimits given, Profile profile) {
+    if (!is_asset(profile)) return given;
+    const auto limit = [](std::optional<CountLimit>& slot, std::optional<double> min, double max) {
+        if (!slot) slot = CountLimit{{.min = min, .max = max, .truth = {}}};
+    };
+    const bool for_shops = profile == Profile::shop || profile == Profile::ar;
+    limit(given.moved_roots, {}, 0);
+    if (profile != Profile::godot) limit(given.odd_textures, {}, 0);
+    const double largest = for_shops ? 2048 : profile == Profile::unreal ? 8192 : 16384;
+    limit(given.texture_sides, for_shops ? std::optional<double>(512) : std::nullopt, largest);
+    if (!for_shops) return given;
+    limit(given.materials, {}, 5);
+    limit(given.primitives, {}, 5);
+    limit(given.parts, {}, 5);
+    limit(given.partial_metals, {}, 0);
+    limit(given.longest_side, 0.01, 100);
+    if (profile == Profile::shop) limit(given.base_colours, 30, 240);
+    if (profile == Profile::ar) limit(given.pivot, {}, 1);
     return given;
 }
 
@@ -75,9 +113,10 @@ Purpose purpose_of(const Assertions& given, Profile profile, const Mark& where) 
         if (std::any_of(rows.begin(), rows.end(),
                         [&](const auto& row) { return row.first == assertion.property; }))
             purpose.assertions.all.push_back(std::move(assertion));
-    constexpr std::array names{"none", "solid", "printing", "web", "simulation"}; // as declared
+    constexpr std::array names{"none", "solid",  "printing", "web",   "simulation",
+                               "shop", "unreal", "unity",    "godot", "ar"}; // as declared
     purpose.name = names[static_cast<std::size_t>(profile)];
-    purpose.is_solid = profile != Profile::web;
+    purpose.is_solid = profile != Profile::web && !is_asset(profile);
     return purpose;
 }
 

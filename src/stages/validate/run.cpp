@@ -74,8 +74,8 @@ void declare_report(DeclareFields<ValidateReport>& d) {
 }
 
 Scene run(Scene scene, const ValidateOptions& o, Context& context, ValidateReport& report) {
-    JudgeSettings s{profiled(o.assertions, o.profile, o.limits, context.where()), o.limits, o.severity,
-                    o.per};
+    const SceneLimits limits = profiled(o.limits, o.profile);
+    JudgeSettings s{profiled(o.assertions, o.profile, limits, context.where()), limits, o.severity, o.per};
     if (o.baseline)
         s.baseline = o.update_baseline ? context.places().output(o.baseline->text)
                                        : context.places().input(o.baseline->text);
@@ -111,7 +111,8 @@ struct ValidateStage : StageOf<run> {
         context.report(*info->result, &report);
     }
     std::optional<std::string> why_not_on_cells() const override {
-        if (o.limits.need_whole_scene()) return "limits other than bytes need the whole scene";
+        if (profiled(o.limits, o.profile).need_whole_scene())
+            return "limits other than bytes need the whole scene";
         if (o.per == Per::component) return "per: component needs the whole mesh in memory";
         if (o.baseline || o.mark) return "baseline and mark need the whole mesh in memory";
         return validate_stage::why_not_on_cells(profiled(o.assertions, o.profile, o.limits, {}));

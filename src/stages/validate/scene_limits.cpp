@@ -8,8 +8,10 @@
 #include "stage/assertions.hpp"
 #include "stages/validate/check_evidence.hpp"
 #include "stages/validate/document_contents.hpp"
+#include "stages/validate/material_ranges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <fmt/format.h>
 #include <set>
 
@@ -45,6 +47,45 @@ LimitCheck check_limit(const char* name, const std::optional<Limits>& bounds, st
     shares.resize(std::min(shares.size(), max_evidence));
     check.evidence.emplace();
     for (Share& s : shares) check.evidence->push_back(std::move(s.entry));
+    return limit;
+}
+
+/// An item whose numbers must all be within a limit.
+struct Extent {
+    report::EvidenceEntry entry;
+    double least = 0, largest = 0;
+};
+
+/// Checks each item, with the items outside of the limit as evidence.
+LimitCheck check_limit(const char* name, const std::optional<CountLimit>& bound,
+                       const std::vector<Extent>& items) {
+    LimitCheck limit;
+    report::Check& check = limit.check;
+    check.name = name;
+    check.expected = expectation(*bound);
+    check.min = bound->min;
+    check.max = bound->max;
+    check.found_words = "within the limit";
+    double worst = 0, excess = 0;
+    std::size_t bad = 0;
+    report::CheckEvidence evidence;
+    for (const Extent& item : items) {
+        const double below = bound->min ? *bound->min - item.least : 0,
+                     above = bound->max ? item.largest - *bound->max : 0;
+        const double beyond = std::max(below, above);
+        if (!(beyond > 0)) continue;
+        ++bad;
+        if (evidence.size() < max_evidence) evidence.push_back(item.entry);
+        if (beyond <= excess) continue;
+        excess = beyond;
+        worst = above >= below ? item.largest : item.least;
+    }
+    check.passed = bad == 0;
+    if (check.passed) return limit;
+    check.found = worst;
+    check.found_words = fmt::format("{:.4g}", worst);
+    check.evidence = std::move(evidence);
+    check.locations = bad;
     return limit;
 }
 
@@ -139,6 +180,69 @@ std::vector<Share> texture_pixels(const Limited& l) {
     return shares;
 }
 
+report::EvidenceEntry entry_of(const DocumentImage& i) {
+    return {.of = Of::image, .name = i.name, .width = i.width, .height = i.height};
+}
+
+std::vector<Extent> texture_sides(const Limited& l) {
+    std::vector<Extent> all;
+    for (const auto& i : images_of(l.scene))
+        if (i.width > 0)
+            all.push_back({entry_of(i), static_cast<double>(std::min(i.width, i.height)),
+                           static_cast<double>(std::max(i.width, i.height))});
+    return all;
+}
+
+std::vector<Share> odd_textures(const Limited& l) {
+    std::vector<Share> shares;
+    for (const auto& i : images_of(l.scene))
+        if (i.width > 0 && !(std::has_single_bit(i.width) && std::has_single_bit(i.height)))
+            shares.push_back({entry_of(i)});
+    return shares;
+}
+
+std::vector<Extent> base_colours(const Limited& l) {
+    std::vector<Extent> all;
+    for (const MaterialRange& m : material_ranges(l.scene))
+        all.push_back({{.of = Of::material, .name = m.name}, m.darkest, m.brightest});
+    return all;
+}
+
+std::vector<Share> partial_metals(const Limited& l) {
+    std::vector<Share> shares;
+    for (const MaterialRange& m : material_ranges(l.scene))
+        if (m.partly_metal) shares.push_back({{.of = Of::material, .name = m.name}});
+    return shares;
+}
+
+std::vector<Share> moved_roots(const Limited& l) {
+    std::vector<Share> shares;
+    for (const std::string& name : moved_root_nodes(l.scene))
+        shares.push_back({{.of = Of::part, .name = name}});
+    return shares;
+}
+
+/// The distance of the origin from the centre of the bounding box or of its bottom, whichever is nearer, in
+/// percent of the diagonal.
+std::vector<Extent> pivot_of(const Limited& l) {
+    const Box box = l.scene.bounds();
+    if (box.empty() || !(box.diagonal() > 0)) return {};
+    Vec3 bottom = box.centre();
+    const std::size_t up = l.scene.up == UpAxis::z ? 2 : 1;
+    bottom[up] = box.min[up];
+    const double distance = 100 * std::min(length(box.centre()), length(bottom)) / box.diagonal();
+    return {{{.of = Of::part, .name = l.scene.parts.front().name}, distance, distance}};
+}
+
+/// In metres. Numbers without a unit count as metres, as readers of glTF take them.
+std::vector<Extent> longest_side(const Limited& l) {
+    const Box box = l.scene.bounds();
+    if (box.empty()) return {};
+    const double unit = metres(l.scene.unit);
+    const double side = box.longest_side() * (unit > 0 ? unit : 1);
+    return {{{.of = Of::part, .name = l.scene.parts.front().name}, side, side}};
+}
+
 std::vector<Word> names_of(const Limited& l) {
     std::vector<Word> words;
     for (const auto& part : l.scene.parts) words.push_back({part.name, {.of = Of::part, .name = part.name}});
@@ -174,6 +278,31 @@ void each_limit(Look&& look) {
     look(Limit{"parts", scene, &L::parts, "The number of parts. A bare number is the maximum (10).",
                parts_of});
     look(Limit{"materials", scene, &L::materials, "The number of materials.", materials_of});
+    look(Limit{"primitives", scene, &L::primitives,
+               "The number of draw calls of the scene: a primitive of a node is one.", draw_calls_of});
+    look(Limit{"texture_sides", scene, &L::texture_sides,
+               "The sides of each PNG, JPEG and WebP image, in pixels: {min: 512, max: 2048}.",
+               texture_sides});
+    look(Limit{"odd_textures", scene, &L::odd_textures,
+               "The number of images with a side that is no power of two.", odd_textures});
+    look(Limit{"base_colours", scene, &L::base_colours,
+               "The brightest channel of base colours, of factors and of texels, from 0 to 255 in sRGB. "
+               "Colours that reflect light like real materials are within {min: 30, max: 240}.",
+               base_colours});
+    look(Limit{"partial_metals", scene, &L::partial_metals,
+               "The number of materials that are neither metal nor non-metal: metalness from 0.1 to 0.9 in "
+               "their factor, or in more than a twentieth of their texels.",
+               partial_metals});
+    look(Limit{"moved_roots", scene, &L::moved_roots,
+               "The number of nodes at the top of the scene with a translation, a rotation or a scale.",
+               moved_roots});
+    look(Limit{"pivot", scene, &L::pivot,
+               "The distance of the origin from the centre of the bounding box, or of its bottom, whichever "
+               "is nearer, in percent of its diagonal.",
+               pivot_of});
+    look(Limit{"longest_side", scene, &L::longest_side,
+               "The longest side of the scene's bounding box in metres. Numbers without a unit are metres.",
+               longest_side});
     look(Limit{
         "bytes", file, &L::bytes,
         "The size of each file written before this check, with its buffers and images. Give a number of "

@@ -12,6 +12,9 @@ namespace facetmill::validate_stage {
 
 struct SceneLimits {
     std::optional<CountLimit> parts{}, materials{};
+    std::optional<CountLimit> primitives{}; ///< draw calls of the scene
+    std::optional<CountLimit> texture_sides{}, odd_textures{}, base_colours{}, partial_metals{};
+    std::optional<CountLimit> moved_roots{}, pivot{}, longest_side{};
     std::optional<CountLimit> draw_calls{}, texture_pixels{}; ///< of a file
     std::optional<ByteLimit> bytes{};                         ///< of a file, with its neighbours
     std::vector<std::string> names{};      ///< patterns; every part's name must match at least one

@@ -96,7 +96,7 @@ TEST_CASE("the Khronos validator finds no error in what is written", "[io]") {
                     settings.meshopt.on = how == std::string("meshopt");
                     settings.quantize.on = settings.meshopt.on || how == std::string("quantize");
                     settings.mesh_manifold = manifold;
-                    settings.lods =
+                    settings.lods.on =
                         number % 2 == 0; // most scenes have no levels, which gives a harmless warning
                     settings.title = "f";
                     files += put(folder / std::to_string(number++), test::written(scene, codec, settings));

@@ -27,11 +27,19 @@ class LookBuilder {
         MaterialLook look;
         for (std::size_t c = 0; c < 4; ++c)
             look.base[c] = static_cast<float>(std::clamp(material.base_colour[c], 0.0, 1.0));
-        if (const auto pbr = place.find("pbrMetallicRoughness"))
+        if (const auto pbr = place.find("pbrMetallicRoughness")) {
             look.base_texture = texture(*pbr, "baseColorTexture", true);
+            look.roughness = number_or(*pbr, "roughnessFactor", 1);
+            look.metalness = number_or(*pbr, "metallicFactor", 1);
+            if (reader_.extent_ == MaterialResolver::Extent::all)
+                look.rough_texture = texture(*pbr, "metallicRoughnessTexture", false);
+        }
         if (const auto old = extension(place, "KHR_materials_pbrSpecularGlossiness")) {
             numbers(*old, "diffuseFactor", look.base);
             look.base_texture = texture(*old, "diffuseTexture", true);
+            look.roughness = 1 - number_or(*old, "glossinessFactor", 1);
+            look.metalness = 0;
+            look.rough_texture = {};
         }
         look.normal_texture = texture(place, "normalTexture", false);
         look.normal_scale = factor(place, "normalTexture", "scale");

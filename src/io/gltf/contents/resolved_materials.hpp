@@ -16,8 +16,12 @@ namespace facetmill::io {
 /// decoded once even if several stages render the scene.
 class MaterialResolver {
   public:
+    /// Whether to resolve MaterialLook::rough_texture too, which pictures do not need.
+    enum class Extent { pictures, all };
     /// max_bytes: limit for decoded images.
-    explicit MaterialResolver(std::size_t max_bytes = std::size_t{512} << 20) : most_(max_bytes) {}
+    explicit MaterialResolver(std::size_t max_bytes = std::size_t{512} << 20,
+                              Extent extent = Extent::pictures)
+        : most_(max_bytes), extent_(extent) {}
 
     /// The resolved materials, by the scene's material index. A blending material with an alpha of 0 becomes
     /// opaque. An image is skipped if it is missing, broken, unsupported or larger than 2^26 pixels, or if
@@ -38,6 +42,7 @@ class MaterialResolver {
     std::map<const Document*, OfDocument> documents_;
     std::size_t bytes_ = 0; ///< the total size of all images
     std::size_t most_;
+    Extent extent_;
 };
 
 } // namespace facetmill::io

@@ -1,3 +1,5 @@
+#include "base/math/portable_math.hpp"
+#include "geometry/deviation/deviation.hpp"
 #include "io/gltf/document/node_references.hpp"
 #include "io/gltf/read/instances.hpp"
 #include "io/gltf/write/patch.hpp"
@@ -328,20 +330,43 @@ void place_level(Json& node, const NodeFrame* parent, const Transform& world) {
     if (!local.identity()) node["matrix"] = matrix(local);
 }
 
-/// Drops the sizes on the screen at which levels change if they are not as many as the levels.
-void drop_coverage(Patch& patch, Json& node, std::size_t levels) {
-    const Json::json_pointer coverage("/extras/MSFT_screencoverage");
-    if (!node.contains(coverage) || node[coverage].size() == levels + 1) return;
-    node["extras"].erase("MSFT_screencoverage");
-    if (node["extras"].empty()) node.erase("extras");
-    patch.warn("W-LODS", fmt::format("the levels of detail of node '{}' changed, so its MSFT_screencoverage "
-                                     "for the old levels is removed",
-                                     node.value("name", "")));
+/// The share of the screen under the bounding sphere, if the error is as many pixels as allowed. The angle of
+/// view does not matter, because it scales both.
+double coverage_of(double radius, double error, const LevelSettings& s) {
+    if (!(error > 0)) return 1;
+    const double pixels = radius / error * s.pixels;
+    return std::min(1.0, pi * pixels * pixels / (s.width * s.height));
+}
+
+/// Writes when levels change, and their distances from level 0. At least as much coverage as the number of a
+/// level shows this level.
+void put_coverage(Patch& patch, Json& node, std::size_t base, const std::vector<std::size_t>& levels) {
+    const std::vector<Part>& parts = patch.scene.parts;
+    const Json::json_pointer own("/extras/MSFT_screencoverage");
+    const bool changed = parts[base].changed || std::any_of(levels.begin(), levels.end(),
+                                                            [&](std::size_t i) { return parts[i].changed; });
+    if (!changed && node.contains(own) && node[own].size() == levels.size() + 1) return;
+    const Surface finest = surface_of(parts[base]);
+    const double radius = finest.bounds().diagonal() / 2;
+    Json coverage = Json::array(), errors = Json::array({0.0});
+    double last = 1;
+    for (const std::size_t level : levels) {
+        const double error = deviation(finest, surface_of(parts[level]), {.means = false}).maximum();
+        if (!std::isfinite(error) || !(radius > 0)) return;
+        last = std::min(last, coverage_of(radius, error, patch.settings.lods));
+        coverage.push_back(last);
+        errors.push_back(error);
+    }
+    coverage.push_back(0.0);
+    Json& extras = node["extras"];
+    if (!extras.is_object()) extras = Json::object();
+    extras["MSFT_screencoverage"] = std::move(coverage);
+    extras["lod_errors"] = std::move(errors);
 }
 
 /// Turns parts X.lod1, X.lod2, ... into levels of X.
 void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& node_of_part) {
-    if (!patch.settings.lods) return;
+    if (!patch.settings.lods.on) return;
     Json& document = patch.builder.json();
     const auto all = levels_by_part(patch.scene.parts);
     const auto frames = node_frames(document);
@@ -351,8 +376,10 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
         const auto& frame = frames[static_cast<std::size_t>(node_of_part[base])];
         const auto* parent = frame.parent < 0 ? nullptr : &frames[static_cast<std::size_t>(frame.parent)];
         Json ids = Json::array();
+        std::vector<std::size_t> parts;
         for (const auto& [level, part] : levels) {
             if (node_of_part[part] < 0) continue;
+            parts.push_back(part);
             const auto node = static_cast<std::size_t>(node_of_part[part]);
             ids.push_back(node);
             ++linked;
@@ -363,7 +390,7 @@ void patch_levels(Patch& patch, const Claims& claims, const std::vector<int>& no
                             node_world(patch, claims, patch.scene.parts[part]));
         }
         Json& node = document["nodes"][static_cast<std::size_t>(node_of_part[base])];
-        drop_coverage(patch, node, ids.size());
+        put_coverage(patch, node, base, parts);
         node["extensions"]["MSFT_lod"] = {{"ids", ids}};
     }
     if (linked > 0)

@@ -286,7 +286,7 @@ TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
         scene.parts.push_back(coarse);
     }
     io::WriteSettings settings;
-    settings.lods = true;
+    settings.lods.on = true;
     const Json json = written_json(scene, settings);
     CHECK(json["extensionsUsed"] == Json::parse(R"(["MSFT_lod"])"));
     const Json& ids = json["nodes"][1]["extensions"]["MSFT_lod"]["ids"];
@@ -294,6 +294,8 @@ TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
     CHECK(json["nodes"][ids[0].get<std::size_t>()]["name"] == "bust.lod1");
     CHECK(json["nodes"][ids[1].get<std::size_t>()]["name"] == "bust.lod2");
     CHECK(json["nodes"][ids[0].get<std::size_t>()]["matrix"][14] == 5); // under root, as the bust is
+    CHECK(json["nodes"][1]["extras"] ==
+          Json::parse(R"({"MSFT_screencoverage":[1.0,1.0,0.0],"lod_errors":[0.0,0.0,0.0]})"));
     const Json roots = json["scenes"][0]["nodes"];
     CHECK(roots.size() == 3); // root, and the two that are no levels
     for (const auto& id : ids) CHECK(std::find(roots.begin(), roots.end(), id) == roots.end());
@@ -307,6 +309,16 @@ TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
     for (std::size_t i = 1; i < coarser.parts.size(); ++i) coarser.parts[i].mesh.positions[0].x = 0.1;
     coarser.parts.resize(3);
     CHECK(test::written(coarser, "glb", settings).warnings.empty());
+    // The corner at the origin moves by 0.01 * 2 along the edge to (1, 0, 0), within the plane. So the old
+    // corner is 0.02 / sqrt(1.0001) from the new edge to (0, 1, 0).
+    for (std::size_t i = 1; i < coarser.parts.size(); ++i) coarser.parts[i].mesh.positions[0].x = 0.01;
+    settings.lods.pixels = 0.2;
+    const Json moved = written_json(coarser, settings);
+    const Json& extras = moved["nodes"][1]["extras"];
+    const double error = 0.02 / std::sqrt(1.0001), radius = std::sqrt(2.0);
+    CHECK(extras["lod_errors"][1].get<double>() == Approx(error));
+    CHECK(extras["MSFT_screencoverage"][0].get<double>() ==
+          Approx(3.14159265358979 * std::pow(radius / error * 0.2, 2) / (1920 * 1080)));
     Scene alone = scene;
     alone.parts.resize(1);
     CHECK(test::written(alone, "glb", settings).warnings.at(0).id == "W-LODS");
