@@ -102,6 +102,7 @@ TESTED_IN = {
     "geometry/openmesh": "geometry/simplify/simplify_test.cpp",  # method: constrained
     "geometry/probe": "stages/probe_test.cpp",
     "io/off": "io/round_trip_test.cpp",
+    "io/import": "golden/import_test.py",
 }
 
 # Tests that are of no one file or folder, and of what.

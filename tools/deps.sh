@@ -1,10 +1,11 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--arm64]
+# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--imports] [--arm64]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
 # shells and Meson, a second Draco reader, node for the glTF validator and axe-core, and clang for the style; --bench adds
 # what the benchmarks use, --site what the manual is made with, --browser the browser that tests open pages in, --fuzz what
-# libFuzzer needs, --deb what a Debian package is made with, --arm64 a cross compiler and an emulator.
+# libFuzzer needs, --deb what a Debian package is made with, --imports what the import helpers (FBX, STEP ...) need,
+# --arm64 a cross compiler and an emulator.
 # --libraries prints the packages of all libraries, for packaging/linux/sysroot.sh.
 set -eu
 
@@ -16,6 +17,7 @@ test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"
 deb="dpkg-dev file"
+imports="libassimp-dev libocct-data-exchange-dev"
 arm64="g++-aarch64-linux-gnu qemu-user-static"
 site="mkdocs mkdocs-material python3-yaml"
 browser="chromium"
@@ -32,8 +34,9 @@ for argument in "$@"; do
     --browser) wanted="$wanted $browser" ;;
     --fuzz) wanted="$wanted $fuzz" ;;
     --deb) wanted="$wanted $deb" ;;
+    --imports) wanted="$wanted $imports" ;;
     --arm64) wanted="$wanted $arm64" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--arm64]" >&2; exit 2 ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--imports] [--arm64]" >&2; exit 2 ;;
     esac
 done
 

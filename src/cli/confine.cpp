@@ -3,6 +3,7 @@
 #include "base/text/glob.hpp"
 #include "cli/arguments.hpp"
 #include "io/images/ktx_workers.hpp"
+#include "io/import/import.hpp"
 #include "io/outputs/early_folders.hpp"
 #include "io/outputs/output_files.hpp"
 
@@ -131,6 +132,7 @@ void start_programs(const pipeline::Plan& plan) {
 }
 
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console) {
+    io::start_import_workers(allowed.read_all ? std::vector<fs::path>() : allowed.read);
     if (options.off) return;
     if (offered_protections().files > 0) {
         static io::EarlyFolders folders; // removed at the end, unless files were written to them
@@ -146,6 +148,7 @@ void confine(AllowedFiles allowed, const SandboxOptions& options, const Console&
 
 void confine_calls_only(const SandboxOptions& options) {
     io::start_ktx_workers(); // a later plan may need them
+    io::start_import_workers({});
     if (!options.off) confine_calls();
 }
 

@@ -35,7 +35,8 @@ void allow_plan(AllowedFiles& allowed, const pipeline::Plan& plan);
 /// needs KTX2.
 void start_programs(const pipeline::Plan& plan);
 
-/// Drops access to all other files and to unneeded system calls, unless the options disable the sandbox.
+/// Starts the processes that read files of other formats. Then drops access to all other files and to
+/// unneeded system calls, unless the options disable the sandbox.
 /// Call it before starting threads. Creates missing output folders, and removes them at the end if they stay
 /// empty. Reports the active restrictions with --verbose.
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* formats_examples =
     R"(The content of a file determines its format. If the content is not conclusive, the suffix decides. Files that end
-in .gz and .zst are decompressed. Text may be UTF-8 or UTF-16.
+in .gz and .zst are decompressed. Text may be UTF-8 or UTF-16. Helper programs beside facetmill read FBX, STEP and others;
+without a helper, the list says what to install.
 
 Examples
   facetmill formats
@@ -21,7 +22,7 @@ Examples
 )";
 
 std::string directions(const io::Codec& codec) {
-    return fmt::format("{}{}", codec.read ? "r" : "-", codec.write ? "w" : "-");
+    return fmt::format("{}{}", codec.reads() ? "r" : "-", codec.write ? "w" : "-");
 }
 
 const char* draco_word(const io::Capabilities& can) {
@@ -37,6 +38,7 @@ std::vector<std::pair<std::string, bool>> abilities(const io::Capabilities& can)
                                                   {"points", can.points},
                                                   {"points_and_faces", can.points_and_faces},
                                                   {"lines", can.lines},
+                                                  {"curves", can.curves},
                                                   {"documents", can.documents},
                                                   {"text", can.honours("ascii")},
                                                   {"big_endian", can.honours("big_endian")},
@@ -64,10 +66,12 @@ Json format_json(const io::Codec& codec) {
     can["draco"] = draco_word(codec.can);
     can["attributes"] = codec.can.attributes;
     can["companion"] = codec.can.companion.empty() ? Json() : Json(codec.can.companion);
+    const std::string missing = codec.missing ? codec.missing() : "";
     return {{"name", codec.name},
             {"about", codec.about},
             {"extensions", codec.extensions},
-            {"read", static_cast<bool>(codec.read)},
+            {"read", codec.reads()},
+            {"missing", missing.empty() ? Json() : Json(missing)},
             {"write", static_cast<bool>(codec.write)},
             {"unit", to_string(codec.unit)},
             {"up", to_string(codec.up)},
@@ -81,6 +85,7 @@ int list_formats(bool json) {
         all.push_back(format_json(c));
         text += fmt::format("{:<6} {}  .{:<14} {}\n{:<26}{}\n", c.name, directions(c),
                             fmt::join(c.extensions, " ."), c.about, "", abilities_text(c));
+        if (c.read && !c.reads()) text += fmt::format("{:<26}{}\n", "", c.missing());
     }
     print(json ? all.dump(2) + "\n" : text);
     return 0;

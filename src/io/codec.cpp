@@ -72,6 +72,12 @@ const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
     const Codec& codec = forced ? *forced : choose(input, log);
     if (!codec.read)
         throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} can be written but not read", codec.name));
+    if (!codec.reads()) {
+        const std::string other = hint_for_reading("x." + codec.extensions.front());
+        throw Error(ErrorKind::usage, "E-FORMAT",
+                    fmt::format("facetmill cannot read the format of '{}' on this machine", input.name()),
+                    fmt::format("{}{}{}", other, other.empty() ? "" : "; or ", codec.missing()));
+    }
     return codec;
 }
 
@@ -185,7 +191,7 @@ const Codec* codec_named(std::string_view name) {
 }
 
 std::vector<std::string> names_of_readers() {
-    return names_where([](const Codec& c) { return c.read != nullptr; });
+    return names_where([](const Codec& c) { return c.reads(); });
 }
 
 std::vector<std::string> names_of_writers() {

@@ -32,6 +32,7 @@ struct ReadLog {
     /// A neighbour was refused, or changed during reading. Another run may then give another scene, even
     /// with the same `files` and the same `absent`.
     bool unrepeatable = false;
+    bool has_solids = false; ///< CurveSettings had an effect
 };
 
 /// Whether vertices at exactly the same position are merged: by the format's convention (STL and glTF merge
@@ -41,6 +42,13 @@ enum class Weld { automatic, off, exact };
 /// Data decoded while writing, kept for the read-back. Only the codecs that made it use it.
 struct Decodings {
     virtual ~Decodings() = default;
+};
+
+/// How finely the faces of solids (CAD) become triangles.
+struct CurveSettings {
+    double deviation = 0; ///< greatest distance from the surface, in metres; 0: see ratio
+    double ratio = 0.001; ///< the same as a share of the diagonal of the file
+    double degrees = 15;  ///< greatest angle between neighbouring triangles of a face
 };
 
 struct ReadSettings {
@@ -56,6 +64,7 @@ struct ReadSettings {
     /// Folders that may hold the neighbours of a file, besides its own folder.
     std::vector<std::filesystem::path> asset_roots{};
     const Decodings* decoded = nullptr; ///< decoded data to use instead of decoding again
+    CurveSettings curves{};
 };
 
 /// The extent that position bits divide.
@@ -237,6 +246,7 @@ struct Capabilities {
     std::string attributes{};           ///< the attributes that it holds, as text
     std::string companion{};            ///< the suffix of a required neighbour: ".bin"
     std::string library{};              ///< the suffix of the neighbour with the materials: ".mtl"
+    bool curves = false;                ///< reading honours CurveSettings
     bool copies_images =
         false; ///< image files stay separate files next to it, unless Textures overrides this
 
@@ -291,6 +301,11 @@ struct Codec {
     std::function<void(const Input&, FileHeader&)> peek = {};
     /// Reads a written file with another library and compares it with our reading. May be empty.
     std::function<SecondReading(const Input&, const Scene&)> read_again = {};
+    /// What to install before this machine can read the format; an empty text if nothing. Empty: nothing.
+    std::function<std::string()> missing = {};
+
+    /// Whether this machine can read the format.
+    bool reads() const { return read && (!missing || missing().empty()); }
 };
 
 /// Registers a codec; one static object per codec file.

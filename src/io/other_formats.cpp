@@ -1,6 +1,7 @@
 #include "io/other_formats.hpp"
 
 #include "base/text/spelling.hpp"
+#include "io/codec.hpp"
 #include "io/packing.hpp"
 
 #include <algorithm>
@@ -73,7 +74,8 @@ const OtherFormat* other_format(const std::filesystem::path& path) {
 } // namespace
 
 std::string hint_for_reading(const std::filesystem::path& path) {
-    const OtherFormat* format = other_format(path);
+    const Codec* codec = codec_for(path);
+    const OtherFormat* format = codec && codec->reads() ? nullptr : other_format(path);
     return format ? fmt::format("its name suggests {}: {}", format->what, format->to_read) : "";
 }
 

@@ -5,16 +5,14 @@
 #include "platform/run_program.hpp"
 #include "platform/sandbox.hpp"
 #include "platform/temporary_files.hpp"
-#include "platform/worker_process.hpp"
+#include "platform/worker_pool.hpp"
 
 #include <algorithm>
 #include <cerrno>
-#include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
-#include <mutex>
 #include <sstream>
 
 namespace facetmill::io {
@@ -177,55 +175,16 @@ class Worker {
 
 // --- the client process
 
-struct Workers {
-    std::mutex mutex;
-    std::condition_variable freed;
-    std::vector<std::shared_ptr<const Descriptor>> all, free; ///< sockets of all workers and of free workers
-};
-
-Workers& workers() {
-    static Workers all;
+WorkerPool& workers() {
+    static WorkerPool all;
     return all;
 }
 
-/// A borrowed socket. It returns to the pool unless an answer was broken.
-class Loan {
-  public:
-    Loan() {
-        Workers& w = workers();
-        std::unique_lock lock(w.mutex);
-        w.freed.wait(lock, [&] { return !w.free.empty() || w.all.empty(); });
-        if (w.free.empty()) return;
-        socket_ = std::move(w.free.back());
-        w.free.pop_back();
-    }
-    ~Loan() {
-        if (!socket_) return;
-        Workers& w = workers();
-        {
-            const std::lock_guard lock(w.mutex);
-            if (broken_)
-                std::erase(w.all, socket_);
-            else
-                w.free.push_back(std::move(socket_));
-        }
-        w.freed.notify_all();
-    }
-    Loan(const Loan&) = delete;
-    Loan& operator=(const Loan&) = delete;
-
-    /// Null if no process is running.
-    const Descriptor* socket() const { return socket_.get(); }
-    [[noreturn]] void fail() {
-        broken_ = true;
-        throw Error(ErrorKind::stage, "E-KTX", "the process that runs ktx was ended",
-                    "it may need more memory; textures: {format: webp} needs no other program");
-    }
-
-  private:
-    std::shared_ptr<const Descriptor> socket_;
-    bool broken_ = false;
-};
+[[noreturn]] void fail(WorkerPool::Loan& loan) {
+    loan.drop();
+    throw Error(ErrorKind::stage, "E-KTX", "the process that runs ktx was ended",
+                "it may need more memory; textures: {format: webp} needs no other program");
+}
 
 } // namespace
 
@@ -242,25 +201,15 @@ std::optional<fs::path> ktx_program() {
 
 void start_ktx_workers() {
     constexpr int most = 8;
-    Workers& w = workers();
-    const std::lock_guard lock(w.mutex);
-    const auto program = w.all.empty() ? ktx_program() : std::nullopt;
+    const auto program = ktx_program();
     if (!program) return;
-    for (int n = std::min(most, default_threads()); n > 0; --n) {
-        Descriptor socket = start_worker([&](const Descriptor& served) {
-            w.free
-                .clear(); // close inherited sockets, or other workers would not see that the client has ended
-            w.all.clear();
-            Worker(*program, served).run();
-        });
-        if (!socket) return;
-        w.free.push_back(w.all.emplace_back(std::make_shared<const Descriptor>(std::move(socket))));
-    }
+    workers().start(std::min(most, default_threads()),
+                    [&](const Descriptor& served) { Worker(*program, served).run(); });
 }
 
 Bytes run_ktx(Span png, const KtxOrder& order) {
     if (!active_protections().calls) start_ktx_workers();
-    Loan loan;
+    WorkerPool::Loan loan(workers());
     if (!loan.socket())
         throw Error(ErrorKind::stage, "E-KTX",
                     "KTX2 needs the program ktx or toktx, which cannot be started");
@@ -274,9 +223,9 @@ Bytes run_ktx(Span png, const KtxOrder& order) {
     const Descriptor& socket = *loan.socket();
     if (!send_all(socket, &message, sizeof message) || !send_all(socket, png.data(), png.size()) ||
         !receive_all(socket, &answer, sizeof answer) || answer.bytes > most_bytes)
-        loan.fail();
+        fail(loan);
     Bytes bytes(answer.bytes);
-    if (!receive_all(socket, bytes.data(), bytes.size())) loan.fail();
+    if (!receive_all(socket, bytes.data(), bytes.size())) fail(loan);
     if (answer.good == 1) return bytes;
     throw Error(ErrorKind::stage, "E-KTX", std::string(as_text(bytes)));
 }

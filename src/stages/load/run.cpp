@@ -1,4 +1,5 @@
 #include "base/hash.hpp"
+#include "base/math/portable_math.hpp"
 #include "base/progress.hpp"
 #include "base/text/glob.hpp"
 #include "base/text/spelling.hpp"
@@ -15,6 +16,7 @@
 #include "stages/load/help.hpp"
 #include "stages/load/lines.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::load_stage {
@@ -29,6 +31,8 @@ struct LoadOptions {
     io::Weld weld = io::Weld::automatic;
     std::optional<Length> lines;
     std::int64_t line_sides = 8;
+    std::optional<Length> max_deviation;
+    std::optional<Angle> max_angle;
     bool expand_instances = false, drop_not_finite = false;
     std::vector<PathText> asset_root;
 };
@@ -74,7 +78,29 @@ void declare(Declare<LoadOptions>& d) {
              "Turns the lines of a PLY, OBJ or glTF file into tubes with this diameter, as separate parts. A "
              "percentage refers to the diagonal of the file. By default, lines stay lines.")
         .above(0);
+    d.option("max_deviation", &LoadOptions::max_deviation,
+             "The greatest distance of triangles from the faces of a solid (STEP, IGES, BREP). A number "
+             "without a unit is in millimetres. A percentage refers to the diagonal of the file. By default "
+             "0.1 %.")
+        .above(0);
+    d.option("max_angle", &LoadOptions::max_angle,
+             "The greatest angle between neighbouring triangles of a face of a solid. By default 15deg.")
+        .above(0);
     d.option("line_sides", &LoadOptions::line_sides, "The number of sides of the tubes.").between(3, 360);
+}
+
+io::CurveSettings curve_settings(const LoadOptions& o) {
+    constexpr double percent = 100, degrees = 180, per_mm = 0.001, most_degrees = 90, least_degrees = 0.5;
+    io::CurveSettings curves;
+    if (o.max_angle)
+        curves.degrees = std::clamp(o.max_angle->radians / pi * degrees, least_degrees, most_degrees);
+    if (!o.max_deviation) return curves;
+    const double amount = o.max_deviation->amount;
+    if (o.max_deviation->kind == Length::Kind::percent)
+        curves.ratio = amount / percent;
+    else
+        curves.deviation = o.max_deviation->kind == Length::Kind::physical ? amount : amount * per_mm;
+    return curves;
 }
 
 io::ReadSettings read_settings(const LoadOptions& o, const Folders& places) {
@@ -85,6 +111,7 @@ io::ReadSettings read_settings(const LoadOptions& o, const Folders& places) {
     settings.lines = o.lines.has_value();
     settings.expand_instances = o.expand_instances;
     settings.drop_not_finite = o.drop_not_finite;
+    settings.curves = curve_settings(o);
     settings.asset_roots = places.asset_roots;
     for (const PathText& folder : o.asset_root) settings.asset_roots.push_back(places.input(folder.text));
     return settings;
@@ -101,6 +128,11 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     auto [more, log] =
         read_recorded(path, read_settings(o, context.places()), io::codec_named(o.format), context);
     steps.next();
+    for (const char* option : {o.max_deviation ? "max_deviation" : "", o.max_angle ? "max_angle" : ""})
+        if (*option && !log.has_solids)
+            context.warn("W-IMPORT",
+                         fmt::format("'{}' has no effect, because '{}' has no solids", option, path.string()),
+                         "leave it out; simplify: {deviation: ...} reduces meshes");
     if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
     const bool first = scene.parts.empty(), had_unit = scene.unit != Unit::unknown;
     const io::Conversion done = io::add_scene(scene, std::move(more));
@@ -219,7 +251,8 @@ const RegisterStage registered = make_stage<LoadStage>(
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
                   "load: [body.obj, \"wheel_*.obj\"]", "load: {path: wires.obj, lines: 1%}",
                   "load: {path: models/lamp.gltf, asset_root: .}",
-                  "load: {path: depth.ply, not_finite: drop}"},
+                  "load: {path: depth.ply, not_finite: drop}",
+                  "load: {path: part.step, max_deviation: 0.1mm, max_angle: 15deg}"},
      .loads = true},
     declare);
 

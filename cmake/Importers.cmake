@@ -1,0 +1,41 @@
+# The import helpers: programs beside facetmill that read formats of others. Each is built where its library is found;
+# facetmill itself does not need them. tools/deps.sh --imports installs the libraries.
+option(FACETMILL_IMPORT_SCENES "Build facetmill-import-scenes (FBX, COLLADA, 3DS ...) where assimp is found" ON)
+option(FACETMILL_IMPORT_CAD "Build facetmill-import-cad (STEP, IGES, BREP) where Open CASCADE is found" ON)
+
+function(add_importer name)
+  add_executable(${name} ${ARGN} importers/helper.cpp src/platform/sandbox.cpp src/platform/file_bytes.cpp
+                 src/platform/descriptor.cpp src/platform/file_status.cpp src/platform/file_names.cpp)
+  target_include_directories(${name} PRIVATE importers)
+  target_link_libraries(${name} PRIVATE facetmill_flags facetmill_sanitizers nlohmann_json::nlohmann_json fmt::fmt PkgConfig::SECCOMP)
+  add_dependencies(facetmill_helpers ${name})
+  # Not in bin: only facetmill runs it.
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/facetmill COMPONENT imports)
+endfunction()
+
+include(GNUInstallDirs)
+add_custom_target(facetmill_helpers ALL)
+if(FACETMILL_IMPORT_SCENES)
+  # By its files: Debian's CMake targets of assimp name a file of another release.
+  find_path(ASSIMP_INCLUDE_DIR assimp/Importer.hpp)
+  find_library(ASSIMP_LIBRARY assimp)
+  if(ASSIMP_INCLUDE_DIR AND ASSIMP_LIBRARY)
+    file(GLOB sources CONFIGURE_DEPENDS importers/scenes/*.cpp)
+    add_importer(facetmill-import-scenes ${sources})
+    target_include_directories(facetmill-import-scenes SYSTEM PRIVATE ${ASSIMP_INCLUDE_DIR})
+    target_link_libraries(facetmill-import-scenes PRIVATE ${ASSIMP_LIBRARY})
+  else()
+    message(STATUS "facetmill-import-scenes is left out: it needs libassimp-dev (tools/deps.sh --imports)")
+  endif()
+endif()
+if(FACETMILL_IMPORT_CAD)
+  find_package(OpenCASCADE CONFIG QUIET)
+  if(OpenCASCADE_FOUND)
+    file(GLOB sources CONFIGURE_DEPENDS importers/cad/*.cpp)
+    add_importer(facetmill-import-cad ${sources})
+    target_include_directories(facetmill-import-cad SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
+    target_link_libraries(facetmill-import-cad PRIVATE TKSTEP TKIGES TKXDESTEP TKXDEIGES TKXCAF TKLCAF TKCAF TKMesh TKXSBase TKBRep TKTopAlgo TKernel)
+  else()
+    message(STATUS "facetmill-import-cad is left out: it needs libocct-data-exchange-dev (tools/deps.sh --imports)")
+  endif()
+endif()
