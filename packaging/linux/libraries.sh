@@ -114,7 +114,7 @@ if fetch openmesh libopenmesh-dev; then
     with_cmake openmesh -DBUILD_APPS=OFF -DOPENMESH_BUILD_UNIT_TESTS=OFF -DOPENMESH_DOCS=OFF -DBUILD_SHARED_LIBS=ON
     for part in Core Tools; do
         rm -f "$prefix/lib/libOpenMesh$part.a"
-        find "$prefix/build/openmesh/build/src/OpenMesh/$part" -name '*.o' | LC_ALL=C sort |
+        find "$prefix/build/openmesh/build/src/OpenMesh/$part" -name '*.o*' | LC_ALL=C sort |
             xargs "${AR:-ar}" rcsD "$prefix/lib/libOpenMesh$part.a"
     done
     touch "$prefix/build/openmesh.built"
@@ -157,7 +157,7 @@ if [ -n "$windows" ]; then
         touch "$prefix/build/libpng1.6.built"
     fi
     if fetch libjpeg-turbo libjpeg62-turbo-dev; then
-        with_cmake libjpeg-turbo -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=OFF && cmake --install "$prefix/build/libjpeg-turbo/build" >/dev/null
+        with_cmake libjpeg-turbo "-DCMAKE_INSTALL_LIBDIR=$prefix/lib" -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=OFF && cmake --install "$prefix/build/libjpeg-turbo/build" >/dev/null
         touch "$prefix/build/libjpeg-turbo.built"
     fi
     if fetch yaml-cpp libyaml-cpp-dev; then
@@ -166,8 +166,9 @@ if [ -n "$windows" ]; then
         touch "$prefix/build/yaml-cpp.built"
     fi
     if fetch expat libexpat1-dev; then
-        root=$source source=$source/expat
-        with_cmake expat -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_EXAMPLES=OFF &&
+        source=$source/expat
+        # A patch of Debian needs a value of XML_DTD, which CMake defines without one.
+        with_cmake expat -DEXPAT_DTD=OFF "-DCMAKE_C_FLAGS=-ffile-prefix-map=$source=. $exact -DXML_DTD=1" -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_EXAMPLES=OFF &&
             cmake --install "$prefix/build/expat/build" >/dev/null
         touch "$prefix/build/expat.built"
     fi
