@@ -20,7 +20,10 @@
 #   make deb-arm64   the same for arm64, in build/arm64; after make dist-arm64
 #   make dist     the packages of a release in dist/: a static executable, pip, npm, image (packaging/README.md)
 #                 (ARCH="x86_64 aarch64" for both architectures, as make dist-arm64)
+#   make deps-windows   the libraries for 64-bit Windows, from Debian's sources, in build/libraries-windows
+#   make dist-windows   as make dist, with the executable and packages for 64-bit Windows
 #   make cross-check   compare outputs of the arm64 executable with those of x86-64, byte for byte
+#                 (SYSTEM=windows for the executable of Windows, under Wine)
 #   make reproduce   build them again from a clone of this commit, and compare the bytes with dist/
 #   make test-dist   install these packages as users do, and run them (needs root for chroot)
 #   make format   run clang-format over the sources
@@ -37,7 +40,7 @@ BUILD := build/$(PRESET)
 SYSROOT ?= $(CURDIR)/build/sysroot-arm64
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb deb-arm64 dist dist-arm64 cross-check reproduce test-dist format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults schedules fuzz fuzz-stages fuzz-bytes bench site pictures install deb deb-arm64 dist dist-arm64 deps-windows dist-windows cross-check reproduce test-dist format check-layers check-style clean
 all: build
 
 deps:
@@ -137,8 +140,15 @@ dist: deps
 dist-arm64:
 	@$(MAKE) --no-print-directory dist ARCH="x86_64 aarch64"
 
+deps-windows:
+	@tools/deps.sh --windows
+	@JOBS=$(JOBS) packaging/linux/libraries.sh build/libraries-windows windows
+
+dist-windows:
+	@$(MAKE) --no-print-directory dist ARCH="x86_64 windows"
+
 cross-check:
-	@packaging/cross_check.py dist
+	@packaging/cross_check.py dist $(if $(SYSTEM),--system $(SYSTEM))
 
 reproduce:
 	@packaging/reproduce.sh dist

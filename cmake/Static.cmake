@@ -29,6 +29,10 @@ foreach(room core seldom program triangulations cgal hulls openmesh)
   list(APPEND static_objects $<TARGET_OBJECTS:facetmill_${room}>)
 endforeach()
 add_executable(facetmill_static src/cli/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/generated/linked_sources.cpp ${static_objects})
+if(WIN32)
+  windows_executable(facetmill_static)
+  return()
+endif()
 
 # From 1.3 on, libwebp has a libsharpyuv.
 set(static_libraries "")

@@ -12,7 +12,7 @@ if [ "$changes" != "$version" ] && { [ "$changes" != Unreleased ] || [ -n "$tagg
     exit 1
 fi
 for file in packaging/ci/action.yml packaging/recipes/PKGBUILD packaging/recipes/facetmill.nix packaging/recipes/facetmill.rb \
-    packaging/recipes/meta.yaml; do
+    packaging/recipes/meta.yaml packaging/recipes/facetmill.scoop.json packaging/recipes/facetmill.winget.yaml; do
     grep -qF "$version" "$file" || { echo "VERSION says $version, and $file has another" >&2 && exit 1; }
 done
 for tag in $tagged; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""cross_check.py DIST [MESHES] [--only REGEX] [--every N] [--jobs N]: runs the arm64 executable of DIST under qemu-aarch64-static and
-compares every output with that of x86-64, byte for byte: exit codes, messages (except times and memory), files and reports.
+"""cross_check.py DIST [MESHES] [--system arm64|windows] [--only REGEX] [--every N] [--jobs N]: runs the arm64 executable of DIST under
+qemu-aarch64-static, or the one for Windows under Wine, and compares every output with that of x86-64, byte for byte: exit codes, messages (except times and memory), files and reports.
 
 The commands run the examples of every stage on several meshes, write all formats, read every mesh of the tests, and print
 the texts. MESHES is a folder with further meshes (up to 300 kB each). The commands write each of them in two formats.
@@ -8,6 +8,7 @@ the texts. MESHES is a folder with further meshes (up to 300 kB each). The comma
 
 import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import shlex
@@ -27,7 +28,9 @@ METHODS = {
     'generate': 'sphere cube torus menger cylinder cone plane icosphere tetrahedron octahedron dodecahedron sierpinski',
     'thicken 2% --side': 'inward outward centred', 'orient --method': 'outward consistent flip'}
 VARYING = re.compile(r' *\b(\d+ min )?\d[\d.,]* ?(ms|s|µs|min|CPU s|[kMG]B|[KMG]iB)\b')
-FIXED = {'PATH': '/usr/bin:/bin', 'FACETMILL_CACHE': 'off', 'FACETMILL_JOBS': '2', 'LC_ALL': 'C.UTF-8'}
+FIXED = {'PATH': '/usr/bin:/bin', 'FACETMILL_CACHE': 'off', 'FACETMILL_JOBS': '2', 'LC_ALL': 'C.UTF-8', 'WINEDEBUG': '-all',
+         **{key: os.environ[key] for key in ('WINEPREFIX',) if key in os.environ}}
+SYSTEMS = {'arm64': ('linux-aarch64', 'qemu-aarch64-static'), 'windows': ('windows-x86_64.exe', 'wine')}
 
 
 class Runner:
@@ -50,12 +53,15 @@ class Runner:
             except subprocess.TimeoutExpired:
                 return {'exit': 'more than 20 minutes'}
 
+            def without_folder(data):  # Wine gives the drive Z: to the root folder
+                return data.replace(b'Z:' + name.encode(), b'.').replace(name.encode(), b'.')
+
             def text(data):
-                return VARYING.sub(' _', data.decode(errors='replace').replace(name, '.').replace(self.program, 'facetmill'))
+                return VARYING.sub(' _', without_folder(data).decode(errors='replace').replace(self.program, 'facetmill'))
 
             files = [p for top in set(folder.iterdir()) - before for p in [top, *top.rglob('*')] if p.is_file()]
             return {'exit': run.returncode, 'stdout': text(run.stdout), 'stderr': text(run.stderr),
-                    **{str(p.relative_to(folder)): p.read_bytes().replace(name.encode(), b'.') for p in files}}
+                    **{str(p.relative_to(folder)): without_folder(p.read_bytes()) for p in files}}
 
 
 def commands(program, folder, meshes):
@@ -112,12 +118,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition('\n')[0])
     parser.add_argument('dist', type=pathlib.Path)
     parser.add_argument('meshes', type=pathlib.Path, nargs='?')
+    parser.add_argument('--system', choices=SYSTEMS, default='arm64')
     parser.add_argument('--only', default='', help='run only commands that match this regular expression')
     parser.add_argument('--every', type=int, default=1, help='run only every Nth command')
     parser.add_argument('--jobs', type=int, default=2)
     options = parser.parse_args()
-    native, foreign = (options.dist.resolve() / f'facetmill-{VERSION}-linux-{name}' for name in ('x86_64', 'aarch64'))
-    emulator = shutil.which('qemu-aarch64-static') or sys.exit('qemu-aarch64-static is missing: tools/deps.sh --arm64')
+    name, emulator = SYSTEMS[options.system]
+    native, foreign = (options.dist.resolve() / f'facetmill-{VERSION}-{n}' for n in ('linux-x86_64', name))
+    emulator = shutil.which(emulator) or sys.exit(f'{emulator} is missing: tools/deps.sh --{options.system}')
     with tempfile.TemporaryDirectory(prefix='facetmill-made-') as made:
         inputs = {'made': made, 'tests': TOP / 'tests/data'}
         if options.meshes:

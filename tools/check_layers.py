@@ -92,7 +92,8 @@ ANYWHERE = {"fmt", "nlohmann", "tbb", "Eigen"}
 # Headers of the operating system, or their folders: only src/platform/ may include them.
 SYSTEM = {"arpa", "asm", "csignal", "dirent.h", "dlfcn.h", "elf.h", "fcntl.h", "glob.h", "grp.h", "link.h", "linux", "malloc.h",
           "net", "netdb.h", "netinet", "poll.h", "pthread.h", "pwd.h", "sched.h", "semaphore.h", "signal.h", "spawn.h", "sys",
-          "syslog.h", "termios.h", "ucontext.h", "unistd.h", "utime.h"}
+          "syslog.h", "termios.h", "ucontext.h", "unistd.h", "utime.h",
+          "io.h", "psapi.h", "shellapi.h", "windows.h"}
 
 # The version of a library is no use of it: these headers hold only macros.
 VERSION_HEADERS = {"CGAL/version.h", "CLI/Version.hpp", "draco/core/draco_version.h", "OpenMesh/Core/System/config.h"}

@@ -1,11 +1,11 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--imports] [--arm64]
+# deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--imports] [--arm64] [--windows]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
 # shells and Meson, a second Draco reader, node for the glTF validator and axe-core, and clang for the style; --bench adds
 # what the benchmarks use, --site what the manual is made with, --browser the browser that tests open pages in, --fuzz what
 # libFuzzer needs, --deb what a Debian package is made with, --imports what the import helpers (FBX, STEP ...) need,
-# --arm64 a cross compiler and an emulator.
+# --arm64 and --windows a cross compiler and an emulator.
 # --libraries prints the packages of all libraries, for packaging/linux/sysroot.sh.
 set -eu
 
@@ -18,6 +18,7 @@ bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"
 deb="dpkg-dev file"
 imports="libassimp-dev libocct-data-exchange-dev"
+windows="g++-mingw-w64-x86-64-posix binutils-mingw-w64-x86-64 m4 make wine64 wine"
 arm64="g++-aarch64-linux-gnu qemu-user-static"
 site="mkdocs mkdocs-material python3-yaml"
 browser="chromium"
@@ -36,7 +37,8 @@ for argument in "$@"; do
     --deb) wanted="$wanted $deb" ;;
     --imports) wanted="$wanted $imports" ;;
     --arm64) wanted="$wanted $arm64" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--imports] [--arm64]" >&2; exit 2 ;;
+    --windows) wanted="$wanted $windows" ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site] [--browser] [--fuzz] [--deb] [--imports] [--arm64] [--windows]" >&2; exit 2 ;;
     esac
 done
 

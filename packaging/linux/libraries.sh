@@ -1,12 +1,18 @@
 #!/bin/sh
-# libraries.sh PREFIX [SYSROOT]: builds static libraries from Debian's sources, in PREFIX/lib, in the installed versions.
-# With SYSROOT, it builds the versions that sysroot.sh unpacked there, for the architecture of toolchain.cmake.
+# libraries.sh PREFIX [SYSROOT | windows]: builds static libraries from Debian's sources, in PREFIX/lib, in the installed
+# versions. With SYSROOT, it builds the versions that sysroot.sh unpacked there, for the architecture of toolchain.cmake.
+# With windows, it builds all libraries, by Debian's mingw-w64 (packaging/windows/toolchain.cmake).
 # Debian packages these five only as shared libraries. All others that facetmill links have a static library in their
 # Debian package. PREFIX/sources.txt lists the source package and version of all: the licences of facetmill's libraries
 # ask that people can get exactly these sources. A library that PREFIX already has in the wanted version is kept.
 set -eu
-prefix=${1:?usage: libraries.sh PREFIX [SYSROOT]} sysroot=${2:-}
+prefix=${1:?usage: libraries.sh PREFIX [SYSROOT | windows]} sysroot=${2:-} windows=
 toolchain=$(cd "$(dirname "$0")" && pwd)/toolchain.cmake
+if [ "$sysroot" = windows ]; then
+    sysroot='' windows=yes toolchain=$(cd "$(dirname "$0")/../windows" && pwd)/toolchain.cmake
+    host=x86_64-w64-mingw32
+    CXX=$host-g++-posix AR=$host-ar
+fi
 mkdir -p "$prefix/lib" "$prefix/include" "$prefix/build"
 prefix=$(cd "$prefix" && pwd)
 jobs=${JOBS:-2}
@@ -22,8 +28,11 @@ fi
 apt=$prefix/build/apt
 mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial"
 suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
+key=[signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]
 cat >"$apt/sources.list" <<LIST
-deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $suite main
+deb-src $key http://deb.debian.org/debian $suite main
+deb-src $key http://deb.debian.org/debian $suite-updates main
+deb-src $key http://deb.debian.org/debian-security $suite-security main
 LIST
 cat >"$apt/apt.conf" <<CONF
 Dir::Etc::sourcelist "$apt/sources.list";
@@ -37,17 +46,24 @@ export APT_CONFIG="$apt/apt.conf"
 apt-get update -qq
 
 fetch() { # fetch SOURCE PACKAGE: unpacks the source of the installed package, and sets `source`; false: built before
-    version=$(dpkg-query -W -f '${source:Version}' "$2")
-    echo "$1 $version" >>"$prefix/sources.txt.new"
-    grep -qx "$1 $version" "$prefix/sources.txt" 2>/dev/null && [ -e "$prefix/build/$1.built" ] && return 1
-    echo "building $1 $version" >&2
-    rm -rf "$prefix/build/$1" && mkdir -p "$prefix/build/$1"
-    (cd "$prefix/build/$1" && apt-get source -qq "$1=$version" >"$prefix/build/$1.log" 2>&1) || {
-        tail -3 "$prefix/build/$1.log" >&2
-        echo "Debian has no source of $1 $version any more: apt-get install --only-upgrade $2" >&2
-        exit 1
-    }
-    source=$(find "$prefix/build/$1" -mindepth 1 -maxdepth 1 -type d)
+    versions=$(dpkg-query -W -f '${source:Version}' "$2")
+    # For Windows, no installed library needs the same headers, so the newest version that can be had is taken.
+    [ -z "$windows" ] || versions=$(apt-cache showsrc "$1" | sed -n 's/^Version: //p' | sort -rVu)
+    for version in $versions; do
+        if grep -qx "$1 $version" "$prefix/sources.txt" 2>/dev/null && [ -e "$prefix/build/$1.built" ]; then
+            echo "$1 $version" >>"$prefix/sources.txt.new"
+            return 1
+        fi
+        echo "building $1 $version" >&2
+        rm -rf "$prefix/build/$1" "$prefix/build/$1.built" && mkdir -p "$prefix/build/$1"
+        (cd "$prefix/build/$1" && apt-get source -qq "$1=$version" >"$prefix/build/$1.log" 2>&1) || continue
+        echo "$1 $version" >>"$prefix/sources.txt.new"
+        source=$(find "$prefix/build/$1" -mindepth 1 -maxdepth 1 -type d)
+        return 0
+    done
+    tail -3 "$prefix/build/$1.log" >&2
+    echo "Debian has no source of $1 $versions any more: apt-get install --only-upgrade $2" >&2
+    exit 1
 }
 
 with_cmake() { # with_cmake PACKAGE [OPTION...]
@@ -55,11 +71,26 @@ with_cmake() { # with_cmake PACKAGE [OPTION...]
     cmake -S "$source" -B "$prefix/build/$package/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF \
         -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
         "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. $exact" "-DCMAKE_C_FLAGS=-ffile-prefix-map=$source=. $exact" \
-        ${sysroot:+"-DCMAKE_TOOLCHAIN_FILE=$toolchain"} ${sysroot:+"-DFACETMILL_SYSROOT=$sysroot"} "$@" >"$prefix/build/$package.log" 2>&1
+        ${sysroot:+"-DCMAKE_TOOLCHAIN_FILE=$toolchain"} ${sysroot:+"-DFACETMILL_SYSROOT=$sysroot"} \
+        ${windows:+"-DCMAKE_TOOLCHAIN_FILE=$toolchain"} ${windows:+"-DFACETMILL_LIBRARIES=$prefix"} "$@" >"$prefix/build/$package.log" 2>&1
     cmake --build "$prefix/build/$package/build" -j "$jobs" >>"$prefix/build/$package.log" 2>&1 || {
         tail -30 "$prefix/build/$package.log" >&2
         exit 1
     }
+}
+
+with_configure() { # with_configure PACKAGE [OPTION...]: only for windows
+    package=$1 && shift
+    mkdir -p "$prefix/build/$package/build"
+    # Assembler and C of the library, without the folder's name.
+    (cd "$prefix/build/$package/build" && "$source/configure" --host="$host" --prefix="$prefix" --libdir="$prefix/lib" \
+        --enable-static --disable-shared CC="$host-gcc-posix" CXX="$host-g++-posix" CC_FOR_BUILD=gcc \
+        CFLAGS="-O2 -ffile-prefix-map=$source=. $exact" CXXFLAGS="-O2 -ffile-prefix-map=$source=. $exact" \
+        "CPPFLAGS=-I$prefix/include" "LDFLAGS=-L$prefix/lib" "$@" && make -j "$jobs" && make install) >"$prefix/build/$package.log" 2>&1 || {
+        tail -30 "$prefix/build/$package.log" >&2
+        exit 1
+    }
+    touch "$prefix/build/$package.built"
 }
 
 rm -f "$prefix/sources.txt.new"
@@ -75,7 +106,7 @@ if fetch onetbb libtbb-dev; then
     # Without the lookups of other libraries at start: a static program has no use for them.
     sed -i '1i #define __TBB_WEAK_SYMBOLS_PRESENT 0' "$source/src/tbb/dynamic_link.cpp"
     with_cmake onetbb -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_EXAMPLES=OFF \
-        "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. $exact -U__TBB_USE_ITT_NOTIFY" && cmake --install "$prefix/build/onetbb/build" >/dev/null
+        "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. $exact -U__TBB_USE_ITT_NOTIFY${windows:+ -mwaitpkg}" && cmake --install "$prefix/build/onetbb/build" >/dev/null
     touch "$prefix/build/onetbb.built"
 fi
 if fetch openmesh libopenmesh-dev; then
@@ -83,12 +114,12 @@ if fetch openmesh libopenmesh-dev; then
     with_cmake openmesh -DBUILD_APPS=OFF -DOPENMESH_BUILD_UNIT_TESTS=OFF -DOPENMESH_DOCS=OFF -DBUILD_SHARED_LIBS=ON
     for part in Core Tools; do
         rm -f "$prefix/lib/libOpenMesh$part.a"
-        find "$prefix/build/openmesh/build/src/OpenMesh/$part" -name '*.o' | LC_ALL=C sort |
+        find "$prefix/build/openmesh/build/src/OpenMesh/$part" -name '*.o*' | LC_ALL=C sort |
             xargs "${AR:-ar}" rcsD "$prefix/lib/libOpenMesh$part.a"
     done
     touch "$prefix/build/openmesh.built"
 fi
-if fetch tinygltf libtinygltf-dev; then
+if [ -z "$windows" ] && fetch tinygltf libtinygltf-dev; then
     # facetmill decodes images with other libraries, so tinygltf needs none.
     # shellcheck disable=SC2086  # a list of options
     "${CXX:-g++}" ${sysroot:+"--sysroot=$sysroot"} -O2 -fPIC -std=c++17 $exact -DTINYGLTF_NO_STB_IMAGE -DTINYGLTF_NO_STB_IMAGE_WRITE \
@@ -97,7 +128,7 @@ if fetch tinygltf libtinygltf-dev; then
     touch "$prefix/build/tinygltf.built"
 fi
 
-if [ -n "$sysroot" ]; then
+if [ -n "$sysroot$windows" ]; then
     # Debian compiles these two with fused multiply-add for arm64, so their outputs would differ from x86-64.
     if fetch draco libdraco-dev; then
         with_cmake draco && cmake --install "$prefix/build/draco/build" >/dev/null
@@ -111,9 +142,55 @@ if [ -n "$sysroot" ]; then
     fi
 fi
 
+if [ -n "$windows" ]; then
+    # Headers of libraries that need no compiling, without the other headers of this system.
+    for name in CGAL boost CLI eigen3 nlohmann tiny_gltf.h OpenMesh; do ln -sfn "/usr/include/$name" "$prefix/include/$name"; done
+    if fetch zlib zlib1g-dev; then
+        # Its CMake files also build a DLL, whose resources Debian's archive lacks.
+        # shellcheck disable=SC2086  # a list of options
+        (cd "$source" && "$host-gcc-posix" -O2 "-ffile-prefix-map=$source=." $exact -c ./*.c && rm -f "$prefix/lib/libz.a" &&
+            "$AR" rcsD "$prefix/lib/libz.a" ./*.o && cp zlib.h zconf.h "$prefix/include/")
+        touch "$prefix/build/zlib.built"
+    fi
+    if fetch libpng1.6 libpng-dev; then
+        with_cmake libpng1.6 -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF && cmake --install "$prefix/build/libpng1.6/build" >/dev/null
+        touch "$prefix/build/libpng1.6.built"
+    fi
+    if fetch libjpeg-turbo libjpeg62-turbo-dev; then
+        with_cmake libjpeg-turbo "-DCMAKE_INSTALL_LIBDIR=$prefix/lib" -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=OFF && cmake --install "$prefix/build/libjpeg-turbo/build" >/dev/null
+        touch "$prefix/build/libjpeg-turbo.built"
+    fi
+    if fetch yaml-cpp libyaml-cpp-dev; then
+        with_cmake yaml-cpp -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF -DYAML_BUILD_SHARED_LIBS=OFF &&
+            cmake --install "$prefix/build/yaml-cpp/build" >/dev/null
+        touch "$prefix/build/yaml-cpp.built"
+    fi
+    if fetch expat libexpat1-dev; then
+        source=$source/expat
+        # A patch of Debian needs a value of XML_DTD, which CMake defines without one.
+        with_cmake expat -DEXPAT_DTD=OFF "-DCMAKE_C_FLAGS=-ffile-prefix-map=$source=. $exact -DXML_DTD=1" -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_EXAMPLES=OFF &&
+            cmake --install "$prefix/build/expat/build" >/dev/null
+        touch "$prefix/build/expat.built"
+    fi
+    if fetch libzstd libzstd-dev; then
+        source=$source/build/cmake
+        with_cmake libzstd -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_SHARED=OFF -DZSTD_BUILD_TESTS=OFF &&
+            cmake --install "$prefix/build/libzstd/build" >/dev/null
+        touch "$prefix/build/libzstd.built"
+    fi
+    if fetch nettle nettle-dev; then with_configure nettle --disable-public-key --disable-documentation --disable-openssl; fi
+    if fetch gmp libgmp-dev; then
+        # Debian's archive lacks the manual, whose folder the build enters.
+        mkdir -p "$source/doc"
+        printf 'all install clean check:\n' >"$source/doc/Makefile.in"
+        with_configure gmp --enable-cxx
+    fi
+    if fetch mpfr4 libmpfr-dev; then with_configure mpfr4 --with-gmp="$prefix" --disable-thread-safe; fi
+fi
+
 # The others, as installed; headers count, too, because templates are compiled into the program.
 compiler=$("${CXX:-g++}" -dumpversion | cut -d. -f1)
-for package in libdraco-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev \
+for package in libdraco-dev libtinygltf-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev \
     libexpat1-dev libmpfr-dev libgmp-dev zlib1g-dev libseccomp-dev libcgal-dev libcli11-dev libeigen3-dev nlohmann-json3-dev \
     "$(dpkg-query -S "$sysroot/usr/include/boost/version.hpp" | cut -d: -f1)" libc6-dev "libstdc++-$compiler-dev"; do
     dpkg-query -W -f '${source:Package} ${source:Version}\n' "$package" 2>/dev/null || true

@@ -1,4 +1,5 @@
-// pack.mjs OUT EXECUTABLE ARCH [EXECUTABLE ARCH]: packs the package facetmill and one for each program (x64, arm64).
+// pack.mjs OUT EXECUTABLE SYSTEM [EXECUTABLE SYSTEM]: packs the package facetmill and one for each program, whose system
+// is linux-x64, linux-arm64 or win32-x64.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -9,7 +10,7 @@ const here = path.dirname(fileURLToPath(import.meta.url)), top = path.join(here,
 const version = fs.readFileSync(path.join(top, 'VERSION'), 'utf8').trim();
 const [out, ...programs] = process.argv.slice(2);
 if (!out || programs.length === 0 || programs.length % 2) {
-  console.error('usage: pack.mjs OUT EXECUTABLE ARCH [EXECUTABLE ARCH]');
+  console.error('usage: pack.mjs OUT EXECUTABLE SYSTEM [EXECUTABLE SYSTEM]');
   process.exit(2);
 }
 const common = { version, license: 'GPL-3.0-or-later', engines: { node: '>=18' } };
@@ -56,12 +57,13 @@ const main = path.join(work, 'facetmill');
 fs.cpSync(path.join(here, 'facetmill'), main, { recursive: true });
 const optionalDependencies = {};
 for (let i = 0; i < programs.length; i += 2) {
-  const [program, cpu] = [programs[i], programs[i + 1]], name = `facetmill-linux-${cpu}`, folder = path.join(work, name);
+  const [program, system] = [programs[i], programs[i + 1]], [platform, cpu] = system.split('-');
+  const name = `facetmill-${system}`, folder = path.join(work, name), file = platform === 'win32' ? 'facetmill.exe' : 'facetmill';
   fs.mkdirSync(path.join(folder, 'bin'), { recursive: true });
-  fs.copyFileSync(program, path.join(folder, 'bin/facetmill'));
-  pack(folder, { name, description: `The program of facetmill for Linux on ${cpu}`, os: ['linux'], cpu: [cpu], files: ['bin'] });
+  fs.copyFileSync(program, path.join(folder, 'bin', file));
+  pack(folder, { name, description: `The program of facetmill for ${platform === 'win32' ? 'Windows' : 'Linux'} on ${cpu}`, os: [platform], cpu: [cpu], files: ['bin'] });
   optionalDependencies[name] = version;
-  if (cpu === process.arch) fs.writeFileSync(path.join(main, 'reports.d.ts'), declarations(path.resolve(program)));
+  if (system === `${process.platform}-${process.arch}`) fs.writeFileSync(path.join(main, 'reports.d.ts'), declarations(path.resolve(program)));
 }
 pack(main, {
   name: 'facetmill', description: 'Declarative mesh pipelines that end in checked glTF',

@@ -1,4 +1,5 @@
-"""wheel.py EXECUTABLE ARCHITECTURE OUT: makes the wheel for Linux on x86_64 or aarch64, with the same bytes each time.
+"""wheel.py EXECUTABLE ARCHITECTURE OUT: makes the wheel for Linux on x86_64 or aarch64, or for windows (64-bit), with the
+same bytes each time.
 
 The executable is static, so one wheel serves glibc and musl alike. It has no build backend: a wheel is a zip file.
 """
@@ -15,6 +16,7 @@ import zipfile
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 TAGS = 'py3-none-manylinux_2_17_{0}.manylinux2014_{0}.musllinux_1_1_{0}'
+WINDOWS_TAG = 'py3-none-win_amd64'
 METADATA = '''Metadata-Version: 2.1
 Name: facetmill
 Version: {version}
@@ -23,7 +25,7 @@ License: GPL-3.0-or-later
 Keywords: mesh,gltf,glb,stl,obj,ply,3mf,draco,simplify,repair
 Classifier: Environment :: Console
 Classifier: License :: OSI Approved :: GNU General Public License v3 or later (GPLv3+)
-Classifier: Operating System :: POSIX :: Linux
+Classifier: Operating System :: {system}
 Classifier: Programming Language :: Python :: 3
 Classifier: Topic :: Multimedia :: Graphics :: 3D Modeling
 Classifier: Typing :: Typed
@@ -41,16 +43,17 @@ def main() -> None:
     executable, architecture, out = sys.argv[1:]
     version = (TOP / 'VERSION').read_text().split()[0]
     info = f'facetmill-{version}.dist-info'
-    tags = TAGS.format(architecture)
+    windows = architecture == 'windows'
+    tags = WINDOWS_TAG if windows else TAGS.format(architecture)
     files = {f'facetmill/{p.name}': p.read_bytes() for p in (HERE / 'facetmill').iterdir() if p.suffix in ('.py', '.typed')}
     with tempfile.TemporaryDirectory() as folder:
         reports = pathlib.Path(folder, 'reports.py')
-        foreign = [] if architecture == platform.machine() else [f'qemu-{architecture}-static']
+        foreign = ['wine'] if windows else [] if architecture == platform.machine() else [f'qemu-{architecture}-static']
         subprocess.run([sys.executable, str(HERE / 'dataclasses_from_schema.py'), str(reports), *foreign, executable],
                        check=True)
         files['facetmill/reports.py'] = reports.read_bytes()
-    files[f'facetmill-{version}.data/scripts/facetmill'] = pathlib.Path(executable).read_bytes()
-    files[f'{info}/METADATA'] = (METADATA.format(version=version) + (HERE / 'README.md').read_text()).encode()
+    files[f'facetmill-{version}.data/scripts/facetmill{".exe" if windows else ""}'] = pathlib.Path(executable).read_bytes()
+    files[f'{info}/METADATA'] = (METADATA.format(version=version, system='Microsoft :: Windows' if windows else 'POSIX :: Linux') + (HERE / 'README.md').read_text()).encode()
     files[f'{info}/WHEEL'] = ('Wheel-Version: 1.0\nGenerator: facetmill\nRoot-Is-Purelib: false\n'
                               + ''.join(f'Tag: py3-none-{tag}\n' for tag in tags.split('-')[2].split('.'))).encode()
     files[f'{info}/licenses/LICENSE'] = (TOP / 'LICENSE').read_bytes()

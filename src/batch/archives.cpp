@@ -26,12 +26,14 @@ class Unpacker {
     void add(const std::string& path, io::Span bytes) {
         if (path.ends_with('/')) return; // a folder of a zip
         // Further data that macOS stores for each file.
-        if (path.starts_with("__MACOSX/") || fs::path(path).filename().string().starts_with("._")) return;
+        if (path.starts_with("__MACOSX/") || fs::path(path).filename().generic_string().starts_with("._"))
+            return;
         const fs::path below = fs::path(path).lexically_normal();
         if (!stays_inside(path, below)) refuse(path, "its name leads out of the archive's folder");
-        if (!names_.insert(lower_case(below.string())).second) refuse(path, "another file has the same name");
+        if (!names_.insert(lower_case(below.generic_string())).second)
+            refuse(path, "another file has the same name");
         io::write_now(folder_ / below, bytes, {.sync = false});
-        if (io::codec_for(below)) meshes_.push_back(below.string());
+        if (io::codec_for(below)) meshes_.push_back(below.generic_string());
     }
     std::vector<std::string> meshes() {
         std::sort(meshes_.begin(), meshes_.end());
@@ -59,7 +61,8 @@ class Unpacker {
 } // namespace
 
 fs::path unpack_folder(const fs::path& output_dir, const std::string& archive) {
-    const std::string name = archive == "-" ? archive : fs::absolute(archive).lexically_normal().string();
+    const std::string name =
+        archive == "-" ? archive : fs::absolute(archive).lexically_normal().generic_string();
     constexpr std::size_t digits = 8;
     return output_dir /
            fmt::format(".facetmill-unpacked-{}", sha256(std::as_bytes(std::span(name))).substr(0, digits));
@@ -91,7 +94,7 @@ namespace {
 
 /// The path below the output folder. Refuses files outside, whose names readers refuse.
 const std::string& name_in_archive(const std::string& path) {
-    if (fs::path(path).is_absolute() || path.starts_with("../"))
+    if (fs::path(path).has_root_path() || path.starts_with("../"))
         throw Error(ErrorKind::output, "E-ARCHIVE", fmt::format("'{}' is outside the output folder", path),
                     "write below the output folder");
     return path;

@@ -22,7 +22,7 @@ constexpr const char* input_param = "input";
 fs::path fixed_prefix(const fs::path& pattern) {
     fs::path prefix;
     for (const auto& component : pattern.parent_path()) {
-        if (is_glob(component.string())) break;
+        if (is_glob(component.generic_string())) break;
         prefix /= component;
     }
     return prefix;
@@ -32,10 +32,10 @@ fs::path fixed_prefix(const fs::path& pattern) {
 std::string hint_for_pattern(const std::string& pattern, const fs::path& fixed) {
     std::error_code unknown;
     if (!fixed.empty() && !fs::is_directory(fixed, unknown))
-        return fmt::format("there is no folder '{}'", fixed.string());
+        return fmt::format("there is no folder '{}'", fixed.generic_string());
     if (pattern.find("**") != pattern.npos) return {};
     const fs::path below = fixed / "**" / fs::path(pattern).lexically_relative(fixed.empty() ? "." : fixed);
-    return fmt::format("--input '{}' also searches the folders below", below.string());
+    return fmt::format("--input '{}' also searches the folders below", below.generic_string());
 }
 
 bool holds_something(const fs::path& folder) {
@@ -89,7 +89,7 @@ class AssetFinder {
             if (holds_something(folder)) return;
             hint =
                 fmt::format("nothing is pruned while '{}' is missing or empty; mount its disk if it has one",
-                            folder.string());
+                            folder.generic_string());
         }
         missing_.push_back({Severity::error, "E-FILE", fmt::format("no file matches '{}'", pattern),
                             sources_.place(pattern), std::move(hint)});
@@ -104,12 +104,12 @@ class AssetFinder {
 
     void add_file(const fs::path& file, const fs::path& base) {
         if (!seen_.insert(fs::absolute(file).lexically_normal()).second) return;
-        assets_.push_back({file.string(),
+        assets_.push_back({file.generic_string(),
                            file,
                            mirrored(file, base),
                            false,
                            false,
-                           {{input_param, file.string()}},
+                           {{input_param, file.generic_string()}},
                            {},
                            {}});
     }

@@ -83,7 +83,7 @@ class MarkdownRows {
         cells.push_back(out.reports.empty() ? name
                                             : fmt::format("[{}]({})", name, link(out.reports.front())));
         cells.push_back(lines_of(out.files, [&](const OutcomeFile& f) {
-            return fmt::format("[{}]({}) {}", markdown_escaped(fs::path(f.path).filename().string()),
+            return fmt::format("[{}]({}) {}", markdown_escaped(fs::path(f.path).filename().generic_string()),
                                link(f.path), sized(f.bytes));
         }));
         for (const auto member : {&OutcomeFile::faces, &OutcomeFile::draw_calls, &OutcomeFile::pixels})
@@ -97,7 +97,7 @@ class MarkdownRows {
     bool has_pictures() const { return !summary_.picture_folder.empty(); }
     std::string link(const std::string& file) const { return markdown_link(summary_, path_, file); }
     std::string picture_path(std::size_t i) const {
-        return (fs::path(summary_.picture_folder) / pictures_[i]).lexically_normal().string();
+        return (fs::path(summary_.picture_folder) / pictures_[i]).lexically_normal().generic_string();
     }
 
     const Summary& summary_;
@@ -127,7 +127,7 @@ std::string title_of(const Summary& summary) {
     std::optional<fs::path> common;
     for (const Asset& asset : summary.assets) {
         if (asset.input.empty()) continue;
-        if (summary.assets.size() == 1) return short_name(asset.input.string());
+        if (summary.assets.size() == 1) return short_name(asset.input.generic_string());
         const fs::path folder = whole(asset.input).parent_path();
         if (!common) {
             common = folder;
@@ -138,7 +138,7 @@ std::string title_of(const Summary& summary) {
         for (auto part = common->begin(); part != end; ++part) shared /= *part;
         common = shared;
     }
-    const std::string name = common ? common->filename().string() : "";
+    const std::string name = common ? common->filename().generic_string() : "";
     return name.empty() ? short_name(summary.pipeline) : name;
 }
 
@@ -168,7 +168,8 @@ std::vector<std::string> picture_names(const Summary& summary) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (summary.outcomes[i].picture.empty()) continue;
         const Asset& asset = summary.assets[i];
-        std::string stem = asset.input.empty() ? asset.name : (asset.folder / asset.input.stem()).string();
+        std::string stem =
+            asset.input.empty() ? asset.name : (asset.folder / asset.input.stem()).generic_string();
         for (char& c : stem)
             if (c == '/' || static_cast<unsigned char>(c) < 0x20) c = '-';
         std::string name = stem;

@@ -148,16 +148,17 @@ std::optional<Stamp> stamp_of(const fs::path& file) {
     constexpr std::int64_t recent = 2'000'000'000;
     const std::int64_t time = about->stamp.modified;
     const bool settled = nanoseconds_now() - time > recent;
-    return Stamp{file.string(), about->stamp.bytes, settled ? time : 0, {}};
+    return Stamp{file.generic_string(), about->stamp.bytes, settled ? time : 0, {}};
 }
 
 fs::path Journal::path_in(const fs::path& folder, const std::string& name) {
     std::error_code ignored;
     const bool is_file = name != "-" && fs::exists(name, ignored); // else a built-in pipeline
-    const std::string stem = name == "-" ? "stdin" : fs::path(name).stem().string();
+    const std::string stem = name == "-" ? "stdin" : fs::path(name).stem().generic_string();
     const std::string place =
-        is_file ? fs::relative(fs::canonical(name), fs::weakly_canonical(fs::absolute(folder))).string()
-                : name;
+        is_file
+            ? fs::relative(fs::canonical(name), fs::weakly_canonical(fs::absolute(folder))).generic_string()
+            : name;
     constexpr std::size_t digits = 8;
     return folder / fmt::format("{}{}-{}{}", prefix, stem,
                                 sha256(std::as_bytes(std::span(place))).substr(0, digits), suffix);
@@ -178,9 +179,10 @@ Journal::Journal(const fs::path& folder, const std::string& name)
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
-        throw Error(ErrorKind::output, "E-DIRECTORY",
-                    fmt::format("the directory '{}' cannot be made: {}", folder.string(), error.message()),
-                    io::hint_to_write(folder, error.value()));
+        throw Error(
+            ErrorKind::output, "E-DIRECTORY",
+            fmt::format("the directory '{}' cannot be made: {}", folder.generic_string(), error.message()),
+            io::hint_to_write(folder, error.value()));
     open_locked();
     read();
 }
@@ -190,12 +192,13 @@ void Journal::open_locked() {
         file_ = open_file(path_, {.what = OpenFor::both, .create = Create::if_missing, .appends = true});
         if (!file_)
             throw Error(ErrorKind::output, "E-WRITE",
-                        fmt::format("'{}' cannot be written: {}", path_.string(), std::strerror(errno)),
+                        fmt::format("'{}' cannot be written: {}", path_.generic_string(), std::strerror(errno)),
                         "a batch records its progress in this folder; choose another one with --output-dir");
         if (!try_lock(file_))
-            throw Error(ErrorKind::output, "E-BUSY",
-                        fmt::format("another batch of this pipeline is running in '{}'", folder_.string()),
-                        "wait until it ends, or choose another folder with --output-dir");
+            throw Error(
+                ErrorKind::output, "E-BUSY",
+                fmt::format("another batch of this pipeline is running in '{}'", folder_.generic_string()),
+                "wait until it ends, or choose another folder with --output-dir");
         const auto held = FileStamp::of(file_), named = FileStamp::of(path_);
         if (held && named && held->is_same_file(*named)) return;
         file_.close(); // a batch that just ended has replaced the file
@@ -213,7 +216,7 @@ std::set<std::string> Journal::outputs_of_others() const {
     std::set<std::string> all;
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
-        const std::string name = entry.path().filename().string();
+        const std::string name = entry.path().filename().generic_string();
         if (!name.starts_with(prefix) || !name.ends_with(suffix) || name == path_.filename()) continue;
         const auto input = io::Input::open(entry.path());
         for_each_done(io::as_text(input.bytes()), [&](const Done& done) {
@@ -240,12 +243,12 @@ const Done* Journal::unchanged(const std::string& asset, const std::string& dige
 
 std::optional<Diagnostic> Journal::unwritable(int error) {
     if (std::exchange(told_, true)) return {};
-    return Diagnostic{
-        Severity::warning,
-        "W-STATE",
-        fmt::format("the progress cannot be recorded in '{}': {}", path_.string(), std::strerror(error)),
-        {},
-        "the next batch will process these assets again"};
+    return Diagnostic{Severity::warning,
+                      "W-STATE",
+                      fmt::format("the progress cannot be recorded in '{}': {}", path_.generic_string(),
+                                  std::strerror(error)),
+                      {},
+                      "the next batch will process these assets again"};
 }
 
 std::optional<Diagnostic> Journal::add(Done done) {
@@ -316,7 +319,7 @@ std::optional<Diagnostic> Journal::compact() {
         } catch (const Json::exception&) { // a name that is not UTF-8, as in add
         }
     }
-    const fs::path part = path_.string() + ".part";
+    const fs::path part = path_.generic_string() + ".part";
     Descriptor file = open_file(
         part, {.what = OpenFor::both, .create = Create::if_missing, .truncates = true, .appends = true});
     if (!file) return unwritable(errno);

@@ -118,7 +118,7 @@ std::string count_cell(const char* head, const std::optional<std::uint64_t>& cou
 }
 
 std::string file_cells(const Summary& summary, const std::string& path, const OutcomeFile& file) {
-    const std::string name = std::filesystem::path(file.path).filename().string();
+    const std::string name = std::filesystem::path(file.path).filename().generic_string();
     return fmt::format(
         "<td class=\"file\"><a href=\"{}\">{}</a></td><td class=\"number\" data-head=\"size\">{}"
         "</td>{}{}{}",

@@ -32,7 +32,7 @@ std::string content_of(const std::string& text) {
 std::vector<std::string> asset_roots_in(const pipeline::Plan& plan) {
     std::vector<std::string> folders;
     for (const auto& folder : pipeline::asset_roots_of(plan.steps, plan.places))
-        folders.push_back(folder.string());
+        folders.push_back(folder.generic_string());
     return folders;
 }
 
@@ -52,7 +52,7 @@ std::string options_digest(const std::string& pipeline, const pipeline::Plan& pl
 
 /// True if the file is compressed, so that its contents are much larger.
 bool is_packed(const fs::path& file) {
-    const std::string extension = file.extension().string();
+    const std::string extension = file.extension().generic_string();
     if (extension == ".drc" || io::packing_named(file) != io::Packing::none) return true;
     if (extension != ".glb" && extension != ".gltf") return false;
     std::string head(1 << 20, '\0'); // the document comes first
@@ -85,7 +85,7 @@ class FileOwners {
         const auto [first, is_new] = owners_.try_emplace(key(path), Owner{"the batch itself", path, {}, {}});
         if (is_new || io::is_stream(path)) return;
         problems_.add({}, "E-DUPLICATE-OUTPUT",
-                      fmt::format("the batch would write '{}' twice", path.string()),
+                      fmt::format("the batch would write '{}' twice", path.generic_string()),
                       "give each report its own name");
     }
 
@@ -107,9 +107,10 @@ class FileOwners {
         if (path == "-" || owner == owners_.end() || io::identity(owner->second.path) != io::identity(path))
             return;
         if (owner->second.beside) return; // a texture copied onto itself stays unchanged
-        problems_.add({}, "E-OVERWRITE",
-                      fmt::format("'{}' would overwrite an input of {}", owner->second.path.string(), reader),
-                      "write elsewhere with --output-dir");
+        problems_.add(
+            {}, "E-OVERWRITE",
+            fmt::format("'{}' would overwrite an input of {}", owner->second.path.generic_string(), reader),
+            "write elsewhere with --output-dir");
     }
 
   private:
@@ -119,7 +120,7 @@ class FileOwners {
         std::optional<fs::path> beside; ///< the folder of the input that refers to it
     };
 
-    static std::string key(const fs::path& path) { return lower_case(io::identity(path).string()); }
+    static std::string key(const fs::path& path) { return lower_case(io::identity(path).generic_string()); }
 
     void claim(const Asset& asset, const fs::path& path, bool beside) {
         if (io::is_stream(path) && path != "/dev/null") return refuse_stream(asset, path);
@@ -130,17 +131,18 @@ class FileOwners {
             return;
         const Owner& other = first->second;
         const bool same = other.path.lexically_normal() == path.lexically_normal();
-        problems_.add(
-            {}, "E-DUPLICATE-OUTPUT",
-            same ? fmt::format("'{}' is written for {} and for {}", path.string(), other.name, asset.name)
-                 : fmt::format("'{}' for {} and '{}' for {} are the same file if case is ignored",
-                               other.path.string(), other.name, path.string(), asset.name),
-            hint_of(other.input, asset.input));
+        problems_.add({}, "E-DUPLICATE-OUTPUT",
+                      same ? fmt::format("'{}' is written for {} and for {}", path.generic_string(),
+                                         other.name, asset.name)
+                           : fmt::format("'{}' for {} and '{}' for {} are the same file if case is ignored",
+                                         other.path.generic_string(), other.name, path.generic_string(),
+                                         asset.name),
+                      hint_of(other.input, asset.input));
     }
 
     /// The parts of the input names that are missing in the output names.
     static std::string hint_of(const fs::path& one, const fs::path& other) {
-        const auto lower = [](const fs::path& path) { return lower_case(path.string()); };
+        const auto lower = [](const fs::path& path) { return lower_case(path.generic_string()); };
         const bool are_two = !one.empty() && !other.empty() && one != other;
         if (are_two && lower(one) == lower(other))
             return "the input names differ only in case: rename or exclude one of them";
@@ -154,9 +156,10 @@ class FileOwners {
     }
 
     void refuse_stream(const Asset& asset, const fs::path& path) {
-        problems_.add({}, "E-DUPLICATE-OUTPUT",
-                      fmt::format("'{}' cannot take the outputs of a batch ({})", path.string(), asset.name),
-                      "write files");
+        problems_.add(
+            {}, "E-DUPLICATE-OUTPUT",
+            fmt::format("'{}' cannot take the outputs of a batch ({})", path.generic_string(), asset.name),
+            "write files");
     }
 
     Problems& problems_;

@@ -30,7 +30,7 @@ std::string mount_point_of(const fs::path& file) {
     fs::path folder = fs::canonical(file, error).parent_path();
     if (error) return {};
     while (!is_mount_point(folder) && folder.has_relative_path()) folder = folder.parent_path();
-    return folder.string();
+    return folder.generic_string();
 }
 
 Presence presence_of(const fs::path& source, const std::string& mount_point) {

@@ -35,10 +35,12 @@ using Verdict = Outcome::Verdict;
 std::string from_folder(const Asset& asset, const std::string& output) {
     return (fs::path(output).is_absolute() ? fs::path(output) : asset.folder / output)
         .lexically_normal()
-        .string();
+        .generic_string();
 }
 
-std::string absolute_name(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
+std::string absolute_name(const fs::path& path) {
+    return fs::absolute(path).lexically_normal().generic_string();
+}
 
 OutcomeFile file_of(const Asset& asset, const report::FileRecord& record) {
     OutcomeFile file{from_folder(asset, record.path), record.bytes};
@@ -217,15 +219,15 @@ class Claims {
         const fs::path self = io::identity(file.resolved);
         const std::lock_guard lock(guard_);
         if (const auto source = sources_.find(self); source != sources_.end())
-            throw Error(
-                ErrorKind::output, "E-OVERWRITE",
-                fmt::format("'{}' would overwrite an input of {}", file.target.string(), source->second),
-                "write elsewhere with --output-dir, or use the name of the asset: ${input.stem}");
+            throw Error(ErrorKind::output, "E-OVERWRITE",
+                        fmt::format("'{}' would overwrite an input of {}", file.target.generic_string(),
+                                    source->second),
+                        "write elsewhere with --output-dir, or use the name of the asset: ${input.stem}");
         const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
         if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
         throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
-                    fmt::format("'{}' is also written for {}, with different contents", file.target.string(),
-                                first->second.first),
+                    fmt::format("'{}' is also written for {}, with different contents",
+                                file.target.generic_string(), first->second.first),
                     "use the name of the asset: ${input.stem}");
     }
 
@@ -243,7 +245,8 @@ std::set<std::string> current_outputs(const std::vector<Work>& works, const Jour
     const fs::path folder = fs::absolute(output_dir).lexically_normal();
     for (const auto& work : works) {
         for (const auto& output : work.outputs)
-            current.insert(fs::absolute(output).lexically_normal().lexically_relative(folder).string());
+            current.insert(
+                fs::absolute(output).lexically_normal().lexically_relative(folder).generic_string());
         const auto done = journal.all().find(work.asset.name);
         if (done == journal.all().end()) continue;
         for (const auto& output : done->second.outputs) current.insert(output.path);

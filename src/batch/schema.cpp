@@ -61,7 +61,8 @@ void declare_asset(DeclareFields<AssetOutcome>& d) {
     d.field(
          "path",
          [](const AssetOutcome& one) {
-             const std::string path = one.asset->of_archive ? one.asset->name : one.asset->input.string();
+             const std::string path =
+                 one.asset->of_archive ? one.asset->name : one.asset->input.generic_string();
              return path.empty() ? std::nullopt : std::optional(path);
          },
          "The input file; in an archive, after the name of the archive.")

@@ -149,10 +149,10 @@ std::vector<Row> yaml_rows(std::shared_ptr<const SourceText> source) {
 std::vector<Row> read_params_table(const std::filesystem::path& file) {
     const auto input = io::Input::open(file);
     std::string_view bytes = io::as_text(input.bytes());
-    const std::string extension = file.extension().string();
+    const std::string extension = file.extension().generic_string();
     const bool yaml = extension == ".yaml" || extension == ".yml";
     if (!yaml) bytes = without_byte_order_mark(bytes); // the YAML reader includes it in its marks
-    const std::string name = file == "-" ? "standard input" : file.string();
+    const std::string name = file == "-" ? "standard input" : file.generic_string();
     const auto source = std::make_shared<const SourceText>(SourceText{name, std::string(bytes)});
     auto rows = yaml ? yaml_rows(source) : csv_rows(source);
     std::erase_if(rows, [](const Row& row) { return row.empty(); });

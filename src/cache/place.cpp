@@ -38,7 +38,9 @@ std::optional<fs::path> folder() {
     const std::string named = variable("FACETMILL_CACHE");
     if (named == "off") return {};
     if (!named.empty()) return fs::absolute(named).lexically_normal();
-    const fs::path caches = variable("XDG_CACHE_HOME"), home = variable("HOME");
+    // Only Windows sets LOCALAPPDATA.
+    const std::string given = variable("XDG_CACHE_HOME");
+    const fs::path caches = given.empty() ? variable("LOCALAPPDATA") : given, home = variable("HOME");
     if (caches.is_absolute()) // relative paths must be ignored
         return is_own_or_missing(caches) ? std::optional(caches / "facetmill") : std::nullopt;
     if (!home.is_absolute() || !is_own(home) || !is_own_or_missing(home / ".cache")) return {};

@@ -36,8 +36,9 @@ bool is_key(const std::string& text) {
 }
 
 bool is_entry(const fs::path& path) {
-    return is_key(path.stem().string()) && std::find(std::begin(suffixes), std::end(suffixes),
-                                                     path.extension().string()) != std::end(suffixes);
+    return is_key(path.stem().generic_string()) &&
+           std::find(std::begin(suffixes), std::end(suffixes), path.extension().generic_string()) !=
+               std::end(suffixes);
 }
 
 io::Span span_of(std::string_view text) { return std::as_bytes(std::span(text)); }
@@ -53,7 +54,7 @@ template <class Take>
 void for_each_file(const fs::path& folder, Take&& take) {
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
+        const std::string name = it->path().filename().generic_string();
         if (name.size() != 2 || name.find_first_not_of("0123456789abcdef") != name.npos) continue;
         std::error_code inner;
         for (fs::directory_iterator file(it->path(), inner), last; !inner && file != last;
@@ -104,7 +105,7 @@ std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std:
     io::Bytes bytes;
     if (size < head || size > max_bytes) return bytes;
     read_more(file, bytes, head);
-    const std::string end = path.filename().string() + "\n";
+    const std::string end = path.filename().generic_string() + "\n";
     if (!io::as_text(bytes).starts_with(magic) || !io::as_text(bytes).ends_with(end)) return io::Bytes();
     read_more(file, bytes, static_cast<std::size_t>(size) - head);
     return bytes;
@@ -161,7 +162,7 @@ void Store::drop(const fs::path& path, const char* why) {
     if (settings_.tell)
         settings_.tell({Severity::note,
                         "W-CACHE",
-                        fmt::format("'{}' in the cache {}: it is computed again", path.string(), why),
+                        fmt::format("'{}' in the cache {}: it is computed again", path.generic_string(), why),
                         {},
                         {}});
 }
@@ -171,7 +172,7 @@ void Store::reject(const std::string& key, Kind kind) { drop(path_of(key, kind),
 std::optional<io::Bytes> Store::get(const std::string& key, Kind kind) {
     if (!is_key(key)) return {};
     const fs::path path = path_of(key, kind);
-    const std::string name = path.filename().string();
+    const std::string name = path.filename().generic_string();
     const std::size_t head = magic.size() + digits + name.size() + 1;
     auto file = read_entry(path, head, settings_.max_bytes);
     if (!file) return {};
@@ -219,7 +220,7 @@ void Store::tell_of_full_disk() {
              "W-CACHE",
              fmt::format("the disk of the cache '{}' is nearly full: the cache keeps {} free, and does not "
                          "store results that need more space",
-                         settings_.folder.string(), sized(reserve)),
+                         settings_.folder.generic_string(), sized(reserve)),
              {},
              "free some space, set FACETMILL_CACHE to a folder on another disk, or use --no-cache"});
 }
@@ -294,14 +295,14 @@ bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
     // A scene is determined by its key. The report of a load also depends on the files at its paths.
     if (kind == Kind::scene && has(key, kind)) return true;
     try {
-        const std::string head = head_of(path.filename().string(), bytes);
+        const std::string head = head_of(path.filename().generic_string(), bytes);
         if (!make_room(head.size() + bytes.size(), kind)) return false;
         if (!write(path, span_of(head), bytes)) return false;
     } catch (const Error& e) {
         cannot_write(e.diagnostics().front().message);
         return false;
     } catch (const fs::filesystem_error& e) {
-        cannot_write(fmt::format("'{}': {}", settings_.folder.string(), e.code().message()));
+        cannot_write(fmt::format("'{}': {}", settings_.folder.generic_string(), e.code().message()));
         return false;
     }
     use(path);
@@ -337,7 +338,7 @@ std::uint64_t Store::limit(std::uint64_t bytes) const {
 
 std::string Store::hindrance() const {
     const fs::path there = nearest_existing(settings_.folder);
-    return may_write_in(there) ? "" : fmt::format("'{}': {}", there.string(), std::strerror(errno));
+    return may_write_in(there) ? "" : fmt::format("'{}': {}", there.generic_string(), std::strerror(errno));
 }
 
 bool Store::make_room(std::uint64_t bytes, Kind kind) {
@@ -409,7 +410,7 @@ void Store::remove_leftovers(std::int64_t older_than) const {
     constexpr std::int64_t in_a_second = 1'000'000'000;
     const std::int64_t now = nanoseconds_now() / in_a_second;
     for_each_file(settings_.folder, [&](const fs::path& path, const FileStamp& about) {
-        if (path.extension() == temporary && path.filename().string().starts_with('.') &&
+        if (path.extension() == temporary && path.filename().generic_string().starts_with('.') &&
             now - about.modified / in_a_second >= older_than)
             remove_file(path);
     });

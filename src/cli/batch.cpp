@@ -191,7 +191,7 @@ void write_pictures(const batch::Summary& summary, const std::filesystem::path& 
 void write_summary(const batch::Summary& summary, const BatchOptions& options, const Folders& places,
                    const Console& console) {
     const auto tell = [&](const std::string& path) {
-        if (!console.json) console.say(fmt::format("wrote {}", places.output(path).string()));
+        if (!console.json) console.say(fmt::format("wrote {}", places.output(path).generic_string()));
     };
     const auto write = [&](const std::string& path, const std::string& text) {
         io::write_now(places.output(path), std::as_bytes(std::span(text)));

@@ -37,7 +37,7 @@ Examples
 void tell_contents(const cache::Store& store, bool json) {
     const auto there = store.contents();
     const auto limit = store.limit(there.bytes);
-    const std::string folder = store.settings().folder.string(), hindrance = store.hindrance();
+    const std::string folder = store.settings().folder.generic_string(), hindrance = store.hindrance();
     if (json) {
         const Json all = {{"folder", folder},       {"entries", there.entries},
                           {"scenes", there.scenes}, {"bytes", there.bytes},

@@ -39,7 +39,7 @@ void allow_input(AllowedFiles& allowed, const fs::path& input) {
     if (fs::is_symlink(fs::symlink_status(input, ignored))) allowed.read.push_back(input); // anywhere
     fs::path folder = input.parent_path();
     // The path before the wildcards.
-    while (is_glob(folder.string())) folder = folder.parent_path();
+    while (is_glob(folder.generic_string())) folder = folder.parent_path();
     allowed.read.push_back(folder.empty() ? "." : folder);
 }
 
@@ -79,6 +79,10 @@ void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Fold
 std::string told(const Protections& on) {
     const std::string files = on.files > 0 ? fmt::format("files (Landlock, version {})", on.files) : "";
     const std::string calls = on.calls ? "system calls (seccomp)" : "";
+    if (on.mitigations)
+        return "the sandbox forbids new code and new processes (Windows mitigation policies), and leaves "
+               "files "
+               "accessible";
     return on.any() ? fmt::format("the sandbox limits {}{}{}", files, on.files > 0 && on.calls ? " and " : "",
                                   calls)
                     : "there is no sandbox: this kernel or this build does not support it";

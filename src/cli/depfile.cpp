@@ -65,8 +65,8 @@ std::vector<std::string> targets_of(const report::RunRecord& record, const std::
 void require_spellable(const std::string& target, const pipeline::Plan& plan) {
     if (!target.empty()) make_escaped(target, true);
     const auto outputs = pipeline::planned_outputs(plan);
-    if (target.empty() && !outputs.empty()) make_escaped(outputs.front().string(), true);
-    for (const auto& file : pipeline::planned_inputs(plan)) make_escaped(file.string(), false);
+    if (target.empty() && !outputs.empty()) make_escaped(outputs.front().generic_string(), true);
+    for (const auto& file : pipeline::planned_inputs(plan)) make_escaped(file.generic_string(), false);
 }
 
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
@@ -74,7 +74,8 @@ void write_depfile(const std::string& depfile, const std::string& target, const 
     Paths inputs;
     if (!pipeline_file.empty()) inputs.add(pipeline_file);
     for (const auto& file : record.inputs) inputs.add(file.path);
-    for (const auto& file : pipeline::planned_inputs(plan)) inputs.add(file.string()); // a baseline ...
+    for (const auto& file : pipeline::planned_inputs(plan))
+        inputs.add(file.generic_string()); // a baseline ...
     const std::string text =
         depfile_text(target.empty() ? targets_of(record, depfile).front() : target, inputs.all());
     io::write_now(depfile, std::as_bytes(std::span(text)));

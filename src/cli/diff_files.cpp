@@ -25,7 +25,7 @@ report::SizeOnDisk size_of(const std::string& name, io::Span bytes, const io::Re
     for (const io::ReadFile& file : log.files) {
         std::error_code unknown;
         const auto count = file.sha256.empty() ? std::filesystem::file_size(file.path, unknown) : file.bytes;
-        if (!unknown) add(file.path.string(), count, {});
+        if (!unknown) add(file.path.generic_string(), count, {});
     }
     return size;
 }
@@ -76,7 +76,8 @@ void state(Scene& scene, bool is_a, const DiffOptions& options) {
 
 /// Whether the scene is a single part named after its file, because the format has no names.
 bool is_named_by_file(const Scene& scene, const std::string& file) {
-    const std::string own = file == "-" ? "standard input" : std::filesystem::path(file).stem().string();
+    const std::string own =
+        file == "-" ? "standard input" : std::filesystem::path(file).stem().generic_string();
     return scene.parts.size() == 1 && scene.parts[0].name == own;
 }
 

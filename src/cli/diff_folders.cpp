@@ -51,7 +51,7 @@ class FolderDiff {
                                     b = std::filesystem::path(options_.b) / paths.b;
         try {
             if (!paths.a.empty() && !paths.b.empty())
-                compare(a.string(), b.string(), pair);
+                compare(a.generic_string(), b.generic_string(), pair);
             else
                 only_one(paths.a.empty() ? b : a, paths.b.empty(), pair);
         } catch (const Error& e) {

@@ -73,7 +73,7 @@ int view(DoorOptions& options, const CommandLine& line, const Console& console) 
     const auto opener = options.no_open ? nullptr : std::make_unique<PageOpener>();
     const int code = run_door("view", options, line, console);
     if (code != 0) return code;
-    const auto page = std::filesystem::absolute(options.output).lexically_normal().string();
+    const auto page = std::filesystem::absolute(options.output).lexically_normal().generic_string();
     if (opener && opener->open(page))
         console.say(fmt::format("opened {}", page));
     else

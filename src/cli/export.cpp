@@ -69,7 +69,7 @@ std::vector<std::string> arguments_of(const ExportOptions& options, const pipeli
         arguments.push_back(folder);
     }
     const std::string threads = std::to_string(options.common.threads);
-    for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.string(),
+    for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.generic_string(),
                                         std::string("--threads"), threads, std::string("--quiet")})
         arguments.push_back(argument);
     return arguments;
@@ -90,9 +90,9 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
     for (const auto& input : work.inputs) {
         std::error_code unknown; // a missing .mtl or image stops no run, but would stop Ninja and Make
         const bool exists = std::filesystem::exists(input, unknown) || unknown;
-        (exists ? job.inputs : job.absent).push_back(input.string());
+        (exists ? job.inputs : job.absent).push_back(input.generic_string());
     }
-    for (const auto& output : work.outputs) job.outputs.push_back(output.string());
+    for (const auto& output : work.outputs) job.outputs.push_back(output.generic_string());
     if (!job.outputs.empty()) job.targets = {job.outputs.front()};
     return job;
 }
@@ -114,8 +114,8 @@ std::vector<Job> cell_jobs(const ExportOptions& options, const CommandLine& line
         arguments.push_back(argument);
     auto inputs = pipeline_as_input(options);
     for (const auto& path : divided.inputs)
-        if (path != options.pipeline) inputs.push_back(path.string());
-    const auto kept = [&](const std::string& name) { return (cell.kept / name).string(); };
+        if (path != options.pipeline) inputs.push_back(path.generic_string());
+    const auto kept = [&](const std::string& name) { return (cell.kept / name).generic_string(); };
     std::vector<Job> jobs;
     const auto add = [&](const std::string& name, const std::string& job) -> Job& {
         jobs.push_back({name, {arguments}, inputs, {}, cell.memory});
@@ -136,7 +136,7 @@ std::vector<Job> cell_jobs(const ExportOptions& options, const CommandLine& line
     }
     Job& last = add(plan.name, "");
     last.inputs.insert(last.inputs.end(), stamps.begin(), stamps.end());
-    for (const auto& path : divided.outputs) last.outputs.push_back(path.string());
+    for (const auto& path : divided.outputs) last.outputs.push_back(path.generic_string());
     return jobs;
 }
 
@@ -160,7 +160,7 @@ void check_cells(const ExportOptions& options, const CommandLine& line, Problems
 
 std::string workflow_of(const ExportOptions& options, const std::vector<Job>& jobs, std::uint64_t memory) {
     std::error_code unknown;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown).string();
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown).generic_string();
     const Resources resources{options.common.threads, default_threads(), batch::memory_for_jobs(memory),
                               unknown ? "facetmill" : program};
     return options.engine == "ninja"  ? ninja_workflow(jobs, resources)

@@ -6,8 +6,7 @@
 #include "cli/exhaustion.hpp"
 #include "io/outputs/outputs.hpp"
 #include "platform/pages.hpp"
-
-#include <algorithm>
+#include "platform/terminal.hpp"
 
 namespace facetmill::cli {
 
@@ -20,11 +19,12 @@ int fail(const Console& console, const Error& error) {
 
 int entry(int argc, char** argv) {
     keep_freed_memory();
+    prepare_streams();
     Console console;
     try {
         io::clean_up_on_signals();
         prepare_for_exhaustion();
-        return program({argv + 1, argv + std::max(argc, 1)}, console);
+        return program(arguments_of_program(argc, argv), console);
     } catch (const Error& e) {
         return fail(console, e);
     } catch (const std::exception& e) {

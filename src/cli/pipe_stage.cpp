@@ -124,7 +124,7 @@ bool may_be_file(const StageInfo& stage, const std::string& name, const std::str
     const Option* primary = stage.options->primary();
     if (!primary || name == primary->name) return false;
     if (primary->kind != OptionKind::path && primary->one != OptionKind::path) return false;
-    const std::string suffix = std::filesystem::path(word).extension().string();
+    const std::string suffix = std::filesystem::path(word).extension().generic_string();
     return suffix.size() > 1 && std::isalpha(static_cast<unsigned char>(suffix[1]));
 }
 

@@ -3,6 +3,7 @@
 #include "cli/pipe_option.hpp"
 #include "cli/pipe_stage.hpp"
 #include "cli/pipe_value.hpp"
+#include "stage/common_keys.hpp"
 
 #include <fmt/format.h>
 

@@ -213,7 +213,7 @@ std::string below_output_dir(const std::string& path, const std::string& folder)
     if (folder.empty() || path == "-" || fs::path(path).is_absolute()) return path;
     const fs::path below = fs::absolute(path).lexically_normal().lexically_relative(
         (fs::absolute(folder) / "").lexically_normal());
-    return below.empty() || *below.begin() == ".." ? path : below.string();
+    return below.empty() || *below.begin() == ".." ? path : below.generic_string();
 }
 
 std::string timings_of(const PipelineOptions& options) {
@@ -338,7 +338,7 @@ std::string command_for(const std::string& pipeline, const pipeline::PlanSetting
     for (const auto& [option, value] : settings.sets)
         line += fmt::format(" --set {}", for_shell(fmt::format("{}={}", option, value)));
     for (const auto& folder : settings.places.asset_roots)
-        line += fmt::format(" --asset-root {}", for_shell(folder.string()));
+        line += fmt::format(" --asset-root {}", for_shell(folder.generic_string()));
     return line;
 }
 
@@ -355,8 +355,8 @@ namespace {
 
 /// The record with the paths of outputs and reports relative to the working directory.
 report::RunRecord located(report::RunRecord record, const Folders& places) {
-    for (auto& file : record.outputs) file.path = places.output(file.path).string();
-    for (auto& report : record.reports) report = places.output(report).string();
+    for (auto& file : record.outputs) file.path = places.output(file.path).generic_string();
+    for (auto& report : record.reports) report = places.output(report).generic_string();
     return record;
 }
 
@@ -501,7 +501,7 @@ bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems,
     if (std::any_of(plans.begin(), plans.end(), collides)) return true; // a report might replace an input
     for (const auto& plan : plans)
         for (const auto& report : pipeline::report_refusal(plan, problems))
-            console.say(fmt::format("report {}", plan.places.output(report).string()));
+            console.say(fmt::format("report {}", plan.places.output(report).generic_string()));
     return true;
 }
 

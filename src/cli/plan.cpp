@@ -23,7 +23,7 @@ struct PlanOptions {
 
 std::string lines(const std::vector<std::filesystem::path>& paths) {
     std::string text;
-    for (const auto& path : paths) text += path.string() + "\n";
+    for (const auto& path : paths) text += path.generic_string() + "\n";
     return text;
 }
 

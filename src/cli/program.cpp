@@ -35,6 +35,7 @@ std::string version_text(bool json) {
                 {"format", 1},
                 {"libraries", libraries},
                 {"sandbox", {{"landlock", here.files}, {"seccomp", here.calls}}}};
+    if (here.mitigations) all["sandbox"]["mitigations"] = true;
     for (const auto& source : docs::linked_sources())
         all["sources"][std::string(source.name)] =
             fmt::format("https://sources.debian.org/src/{}/{}/", source.name, source.version);

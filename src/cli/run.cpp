@@ -36,7 +36,7 @@ void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problem
                 plan.files_collide = true;
                 problems.add({}, "E-DUPLICATE-OUTPUT",
                              fmt::format("{}: another pipeline of this run also writes '{}'", plan.name,
-                                         output.string()));
+                                         output.generic_string()));
             }
     }
 }
@@ -163,7 +163,7 @@ int code_of(const Console& console, Body&& body) {
             console.say(fmt::format("exit code {}; watching {}; press Ctrl-C to stop", code,
                                     counted(watch.size(), "file")));
         const auto changed = watch.wait();
-        console.say(fmt::format("{} has changed", changed.string()));
+        console.say(fmt::format("{} has changed", changed.generic_string()));
         last = std::move(watch);
     }
 }

@@ -92,7 +92,7 @@ class StageWords {
 
 bool names_result(const StageInfo& stage, const std::string& word) {
     const Option* path = stage.options->find("path");
-    const std::string suffix = std::filesystem::path(word).extension().string();
+    const std::string suffix = std::filesystem::path(word).extension().generic_string();
     return path && !path->primary && suffix.size() > 1 &&
            std::all_of(suffix.begin() + 1, suffix.end(), [](unsigned char c) { return std::isalpha(c); });
 }

@@ -331,7 +331,8 @@ std::string snakemake_workflow(const std::vector<Job>& jobs, const Resources& re
     Json all = Json::array();
     for (const Job& job : jobs)
         all.push_back(
-            {{"name", "job_" + std::filesystem::path(depfile_of(job.outputs.front())).stem().string()},
+            {{"name",
+              "job_" + std::filesystem::path(depfile_of(job.outputs.front())).stem().generic_string()},
              {"asset", job.name},
              {"runs", command_lines(job)},
              {"inputs", job.inputs},

@@ -35,7 +35,7 @@ std::set<std::string> meshes_in(const fs::path& folder) {
     }
     if (error)
         throw Error(ErrorKind::missing, "E-FILE",
-                    fmt::format("cannot read the folder '{}': {}", folder.string(), error.message()),
+                    fmt::format("cannot read the folder '{}': {}", folder.generic_string(), error.message()),
                     "check its permissions");
     return paths;
 }
@@ -169,14 +169,16 @@ bool FolderComparison::differs() const {
 
 std::string PairedPaths::text() const {
     if (a.empty() || b.empty() || a == b) return path();
-    return fmt::format("{} and {}", a, fs::path(b).filename().string());
+    return fmt::format("{} and {}", a, fs::path(b).filename().generic_string());
 }
 
 std::vector<PairedPaths> pairs_in(const fs::path& a, const fs::path& b) {
     const auto in_a = meshes_in(a), in_b = meshes_in(b);
     std::vector<PairedPaths> pairs;
     std::map<std::string, Namesakes> rest; // the other files, by path without suffix
-    const auto stem = [](const std::string& path) { return fs::path(path).replace_extension().string(); };
+    const auto stem = [](const std::string& path) {
+        return fs::path(path).replace_extension().generic_string();
+    };
     for (const auto& path : in_a)
         if (in_b.contains(path))
             pairs.push_back({path, path});

@@ -33,7 +33,7 @@ constexpr std::size_t map_from = std::size_t{16} << 20;
         throw Error(ErrorKind::missing, "E-DIRECTORY",
                     fmt::format("'{}' is a directory, expected a file", name),
                     fmt::format("give a file in it, or (load, batch --input) a pattern for many files: '{}'",
-                                (std::filesystem::path(name) / "*.ply").string()));
+                                (std::filesystem::path(name) / "*.ply").generic_string()));
     throw Error(ErrorKind::missing, "E-FILE",
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));
 }
@@ -112,7 +112,7 @@ bool Input::is_as_opened() const { return !mapped_ || FileStamp::of(path_) == ma
 Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
     Input input;
     const bool standard = path == "-";
-    input.name_ = standard ? "standard input" : path.string();
+    input.name_ = standard ? "standard input" : path.generic_string();
     const Descriptor file = standard ? Descriptor::standard_input() : open_file(path);
     if (!file) cannot_read(input.name_, errno);
     const auto about = status_of(file);
@@ -151,7 +151,7 @@ Input Input::of(std::string name, Bytes bytes) {
 
 Input Input::staged_as(const std::filesystem::path& target, std::shared_ptr<const Instead> instead) const {
     Input other = *this;
-    other.name_ = target.string();
+    other.name_ = target.generic_string();
     other.path_ = target;
     other.instead_ = std::move(instead);
     return other;
@@ -165,7 +165,7 @@ Input Input::with_asset_roots(const std::vector<std::filesystem::path>& folders)
         if (is_folder) other.asset_roots_.push_back(std::filesystem::canonical(folder, failed));
         if (!is_folder || failed)
             throw Error(ErrorKind::missing, "E-ASSET-ROOT",
-                        fmt::format("the asset root '{}' is not a folder", folder.string()),
+                        fmt::format("the asset root '{}' is not a folder", folder.generic_string()),
                         "give the folder with all files that the mesh file refers to");
     }
     return other;

@@ -133,7 +133,7 @@ void warn_of_size(const Part& part, ReadLog& log) {
 
 /// The file's name without directory, .gz or .zst, and suffix, for unnamed parts.
 std::string stem_of(const Input& input) {
-    return without_packing(std::filesystem::path(input.name()).filename()).stem().string();
+    return without_packing(std::filesystem::path(input.name()).filename()).stem().generic_string();
 }
 
 /// Renames parts of lines that share the name of a part with faces.
@@ -164,8 +164,8 @@ RegisterCodec::RegisterCodec(Codec codec) {
 const std::vector<Codec>& codecs() { return registry(); }
 
 const Codec* codec_for(const std::filesystem::path& path) {
-    const std::string name = lower_case(without_packing(path).filename().string());
-    const std::string extension = std::filesystem::path(name).extension().string();
+    const std::string name = lower_case(without_packing(path).filename().generic_string());
+    const std::string extension = std::filesystem::path(name).extension().generic_string();
     if (extension.empty()) return nullptr;
     for (const auto& codec : codecs())
         for (const auto& e : codec.extensions) {

@@ -30,7 +30,7 @@ std::size_t MaterialDocument::texture(const std::filesystem::path& image, const 
     std::string uri = uri_of(path);
     for (int n = 2; !document_.files.try_emplace(uri, bytes).second && document_.files[uri] != bytes; ++n) {
         path = image.parent_path() /
-               fmt::format("{}.{}{}", image.stem().string(), n, image.extension().string());
+               fmt::format("{}.{}{}", image.stem().generic_string(), n, image.extension().generic_string());
         uri = uri_of(path);
     }
     const int wrap = clamp ? clamp_to_edge : repeat;

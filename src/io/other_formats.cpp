@@ -64,7 +64,7 @@ const std::vector<OtherFormat>& other_formats() {
 }
 
 const OtherFormat* other_format(const std::filesystem::path& path) {
-    const std::string name = lower_case(without_packing(path).extension().string());
+    const std::string name = lower_case(without_packing(path).extension().generic_string());
     for (const auto& format : other_formats())
         for (const std::string_view suffix : format.suffixes)
             if (name.size() == suffix.size() + 1 && name.ends_with(suffix)) return &format;

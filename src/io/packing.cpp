@@ -199,14 +199,14 @@ Packing packing_of(Span bytes) {
 }
 
 Packing packing_named(const std::filesystem::path& path) {
-    const std::string suffix = lower_case(path.extension().string());
+    const std::string suffix = lower_case(path.extension().generic_string());
     for (const Suffix& known : suffixes)
         if (suffix == known.text) return known.packing;
     return Packing::none;
 }
 
 std::string stem_of_neighbours(const std::filesystem::path& output) {
-    std::string stem = without_packing(output).stem().string();
+    std::string stem = without_packing(output).stem().generic_string();
     std::replace(stem.begin(), stem.end(), '\\', '_');
     return stem;
 }

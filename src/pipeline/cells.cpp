@@ -123,7 +123,8 @@ CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
     if (inputs.empty()) refuse_cells(what, "only files can be divided into cells", way_out, {});
     for (const PlannedFile& file : inputs)
         if (const auto why = cells::why_not_streamed(file.path))
-            refuse_cells(what, fmt::format("'{}' cannot be read in pieces: {}", file.path.string(), *why),
+            refuse_cells(what,
+                         fmt::format("'{}' cannot be read in pieces: {}", file.path.generic_string(), *why),
                          "write it as binary PLY or STL, or " + way_out, file.where);
     cells.steps = steps_on_cells(plan.steps, what, way_out);
     const Step& last = plan.steps[cells.steps - 1];

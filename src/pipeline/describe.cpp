@@ -160,7 +160,7 @@ Json steps_json(const Steps& steps, const Headers& headers) {
 
 Json paths_json(const std::vector<std::filesystem::path>& paths) {
     Json all = Json::array();
-    for (const auto& path : paths) all.push_back(path.string());
+    for (const auto& path : paths) all.push_back(path.generic_string());
     return all;
 }
 
@@ -195,7 +195,7 @@ std::string header_text(const Headers& headers, const std::filesystem::path& pat
 Json headers_json(const Headers& headers) {
     Json all = Json::array();
     for (const auto& [path, header] : headers.inputs)
-        all.push_back({{"path", path.string()},
+        all.push_back({{"path", path.generic_string()},
                        {"format", header.format},
                        {"unit", to_string(header.unit)},
                        {"up", to_string(header.up)},
@@ -214,7 +214,7 @@ std::string describe(const Plan& plan, const Headers& headers) {
     const auto files = [&](const char* title, const std::vector<std::filesystem::path>& paths) {
         if (!paths.empty()) out += fmt::format("{}:\n", title);
         for (const auto& path : paths)
-            out += fmt::format("  {}{}\n", path.string(), header_text(headers, path));
+            out += fmt::format("  {}{}\n", path.generic_string(), header_text(headers, path));
     };
     files("reads", planned_inputs(plan, headers));
     files("writes", planned_outputs(plan, headers));

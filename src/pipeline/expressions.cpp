@@ -176,8 +176,8 @@ class Resolver {
             const std::string ext = extension_of(path);
             return text(variable.from_file && !ext.empty() ? "." + safe_name(ext.substr(1)) : ext);
         }
-        if (name == "name") return shown(std::filesystem::path(path).filename().string());
-        const std::string dir = std::filesystem::path(path).parent_path().string();
+        if (name == "name") return shown(std::filesystem::path(path).filename().generic_string());
+        const std::string dir = std::filesystem::path(path).parent_path().generic_string();
         return shown(dir.empty() ? "." : dir);
     }
 
@@ -245,8 +245,8 @@ Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from) {
 namespace {
 /// The file's name, and the length of its stem.
 std::pair<std::string, std::size_t> split_name(const std::string& path) {
-    const std::string name = path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
-    std::string stem = io::without_packing(name).string();
+    const std::string name = path == "-" ? "stdin" : std::filesystem::path(path).filename().generic_string();
+    std::string stem = io::without_packing(name).generic_string();
     if (const auto dot = stem.rfind('.'); dot != std::string_view::npos && dot > 0)
         stem = stem.substr(0, dot);
     return {name, stem.size()};

@@ -40,7 +40,7 @@ void add_files(const Step& step, const Folders& places, std::vector<PlannedFile>
         const fs::path path = places.input(input.text);
         const auto matches = expand_glob(path);
         PlannedFile file{path, where(input), false};
-        if (is_glob(path.string())) file.pattern = path;
+        if (is_glob(path.generic_string())) file.pattern = path;
         if (matches.empty()) files.push_back(file);
         for (const auto& match : matches) {
             file.path = match;
@@ -54,7 +54,7 @@ void add_files(const Step& step, const Folders& places, std::vector<PlannedFile>
 /// The most similar file name in the folder. For a mesh, only names of meshes; for an unsupported format, the
 /// same name in a supported format.
 std::string nearest_file(const fs::path& path) {
-    const std::string suffix = path.extension().string(), foreign = io::hint_for_reading(path);
+    const std::string suffix = path.extension().generic_string(), foreign = io::hint_for_reading(path);
     const bool mesh = io::codec_for(path) != nullptr || !foreign.empty();
     std::vector<std::string> names;
     std::error_code ignored;
@@ -63,12 +63,12 @@ std::string nearest_file(const fs::path& path) {
         const fs::path name = entry.path().filename();
         if (mesh && name.extension() != suffix && !io::codec_for(name)) continue;
         if (!foreign.empty() && name.stem() != path.stem()) continue;
-        names.push_back(name.string());
+        names.push_back(name.generic_string());
         if (names.size() > 1000) break;
     }
-    if (ignored) return fmt::format("there is no folder '{}' either", folder.string());
+    if (ignored) return fmt::format("there is no folder '{}' either", folder.generic_string());
     std::sort(names.begin(), names.end());
-    return did_you_mean(path.filename().string(), names, foreign);
+    return did_you_mean(path.filename().generic_string(), names, foreign);
 }
 
 OrderedSet<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {
@@ -161,8 +161,8 @@ std::string hint_of_duplicate(const SameFiles& same, const PlannedFile& file) {
         });
         if (differs) differing += "." + part;
     }
-    const std::string written = written_at(file.where), suffix = file.path.extension().string();
-    const std::string name = written.ends_with(suffix) ? written : file.path.filename().string();
+    const std::string written = written_at(file.where), suffix = file.path.extension().generic_string();
+    const std::string name = written.ends_with(suffix) ? written : file.path.filename().generic_string();
     return fmt::format("foreach writes it for every value: {}{}{}",
                        name.substr(0, name.size() - suffix.size()), differing.empty() ? all : differing,
                        suffix);
@@ -173,7 +173,7 @@ bool check_inputs(const std::vector<PlannedFile>& files, std::map<std::string, c
     bool good = true;
     for (const auto& file : files) {
         if (file.written) continue;
-        const auto [first, is_new] = inputs.emplace(io::identity(file.path).string(), &file);
+        const auto [first, is_new] = inputs.emplace(io::identity(file.path).generic_string(), &file);
         if (is_new || file.path != "-") continue;
         good = false;
         problems.add(file.where, "E-DUPLICATE-INPUT", "standard input can be read only once",
@@ -188,19 +188,20 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     std::map<std::string, const PlannedFile*> inputs;
     std::map<std::string, SameFiles> outputs;
     for (const auto& file : files)
-        if (file.written) outputs[lower_case(io::identity(file.path).string())].push_back(&file);
+        if (file.written) outputs[lower_case(io::identity(file.path).generic_string())].push_back(&file);
     bool good = check_inputs(files, inputs, problems);
     std::set<std::string> told; // positions
     for (const auto& file : files) {
         if (!file.written) continue;
-        const std::string path = io::identity(file.path).string();
+        const std::string path = io::identity(file.path).generic_string();
         if (const auto input = inputs.find(path); input != inputs.end() && path != "-") {
             good = false;
-            problems.add(
-                file.where, "E-OVERWRITE", fmt::format("'{}' would overwrite an input", file.path.string()),
-                input->second->where.known() ? fmt::format("it is read at {}; give the output another name",
-                                                           to_string(input->second->where))
-                                             : "it is the pipeline itself; give the output another name");
+            problems.add(file.where, "E-OVERWRITE",
+                         fmt::format("'{}' would overwrite an input", file.path.generic_string()),
+                         input->second->where.known()
+                             ? fmt::format("it is read at {}; give the output another name",
+                                           to_string(input->second->where))
+                             : "it is the pipeline itself; give the output another name");
         }
         const SameFiles& same = outputs.at(lower_case(path));
         const PlannedFile& first = *same.front();
@@ -208,11 +209,11 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         good = false;
         // All values of a foreach have the same problem: only one name must change.
         if (is_at_one_place(first, file) && !told.insert(to_string(file.where)).second) continue;
-        const bool spelled_alike = io::identity(first.path).string() == path;
+        const bool spelled_alike = io::identity(first.path).generic_string() == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
-                     spelled_alike ? fmt::format("'{}' is written twice", file.path.string())
+                     spelled_alike ? fmt::format("'{}' is written twice", file.path.generic_string())
                                    : fmt::format("'{}' and '{}' are the same file if case is ignored",
-                                                 first.path.string(), file.path.string()),
+                                                 first.path.generic_string(), file.path.generic_string()),
                      hint_of_duplicate(same, file));
     }
     return good;
@@ -250,7 +251,7 @@ std::vector<PlannedFile> missing_files(const Plan& plan) {
 }
 
 std::string hint_of_missing(const fs::path& path) {
-    if (const auto found = placeholder_in(path.filename().string(), {}))
+    if (const auto found = placeholder_in(path.filename().generic_string(), {}))
         return fmt::format("for the value of a param or variable write {}", found->expression);
     return nearest_file(path);
 }
@@ -259,11 +260,11 @@ Diagnostic about_missing(const PlannedFile& file) {
     if (!file.pattern.empty())
         return {Severity::error,
                 "E-FILE",
-                fmt::format("no file matches '{}'", file.pattern.string()),
+                fmt::format("no file matches '{}'", file.pattern.generic_string()),
                 file.where,
                 {}};
-    return {Severity::error, "E-FILE", fmt::format("there is no file '{}'", file.path.string()), file.where,
-            hint_of_missing(file.path)};
+    return {Severity::error, "E-FILE", fmt::format("there is no file '{}'", file.path.generic_string()),
+            file.where, hint_of_missing(file.path)};
 }
 
 } // namespace
@@ -310,10 +311,11 @@ std::optional<Diagnostic> without_effect(const Plan& plan) {
 Diagnostic about_input(const std::vector<fs::path>& inputs, Diagnostic diagnostic) {
     const std::string place = diagnostic.where.known() ? diagnostic.where.source->name : "";
     const auto is_named = [&](const fs::path& input) {
-        return diagnostic.message.find(input.string()) != std::string::npos || place == input.string();
+        return diagnostic.message.find(input.generic_string()) != std::string::npos ||
+               place == input.generic_string();
     };
     if (inputs.empty() || std::any_of(inputs.begin(), inputs.end(), is_named)) return diagnostic;
-    const std::string first = inputs.front() == "-" ? "standard input" : inputs.front().string();
+    const std::string first = inputs.front() == "-" ? "standard input" : inputs.front().generic_string();
     const std::string more = inputs.size() > 1 ? fmt::format(" and {} more", inputs.size() - 1) : "";
     diagnostic.message = fmt::format("{}{}: {}", first, more, diagnostic.message);
     return diagnostic;

@@ -84,9 +84,9 @@ class Refusals {
         const std::size_t untold = count_ - most_told;
         errors.emplace_back(error.kind(), one.id,
                             untold == 1
-                                ? fmt::format("'{}' cannot be loaded, either", path.string())
+                                ? fmt::format("'{}' cannot be loaded, either", path.generic_string())
                                 : fmt::format("{} more files cannot be loaded, '{}' the first of them",
-                                              untold, path.string()),
+                                              untold, path.generic_string()),
                             one.hint, one.where);
     }
 
@@ -145,7 +145,8 @@ class Walk {
             try {
                 const io::FileHeader header = step.stage->header(file.path, places_);
                 if (std::exchange(first, false)) unit = header.unit;
-                if (known_.insert(file.path.native()).second) headers.inputs.push_back({file.path, header});
+                if (known_.insert(file.path.generic_string()).second)
+                    headers.inputs.push_back({file.path, header});
                 headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
                                            header.files.end());
                 loaded_.push_back({header, [path = file.path, roots = asset_roots_of({step}, places_)] {
@@ -184,7 +185,7 @@ class Walk {
             auto& [name, written] = place->second;
             if (fresh) name = names.add(image.relative);
             if (used && !std::exchange(written, true))
-                headers.more_outputs.push_back(places_.output((path.parent_path() / name).string()));
+                headers.more_outputs.push_back(places_.output((path.parent_path() / name).generic_string()));
         };
         for (auto& file : loaded_) {
             const io::LibraryImageNames of_file = all ? known(file.library_images) : io::LibraryImageNames{};

@@ -50,7 +50,7 @@ std::shared_ptr<const SourceText> Planner::text_of(const fs::path& file, const M
     try {
         const auto input = io::Input::open(file);
         return std::make_shared<const SourceText>(
-            SourceText{file.string(), std::string(io::as_text(input.bytes()))});
+            SourceText{file.generic_string(), std::string(io::as_text(input.bytes()))});
     } catch (Error& e) {
         throw e.at(where);
     }
@@ -58,9 +58,10 @@ std::shared_ptr<const SourceText> Planner::text_of(const fs::path& file, const M
 
 const Value* Planner::fragment(const fs::path& file, const Mark& where, std::string_view built_in) {
     if (const auto known = fragments_.find(file); known != fragments_.end()) return &known->second;
-    auto source = built_in.empty()
-                      ? text_of(file, where)
-                      : std::make_shared<const SourceText>(SourceText{file.string(), std::string(built_in)});
+    auto source =
+        built_in.empty()
+            ? text_of(file, where)
+            : std::make_shared<const SourceText>(SourceText{file.generic_string(), std::string(built_in)});
     Problems found;
     Value document = parse_yaml(std::move(source), found);
     for (const auto& d : found.all()) problems_.add(d.where, d.id, d.message, d.hint);
@@ -97,16 +98,16 @@ bool Planner::may_include(const fs::path& file, const Mark& where) {
     constexpr std::size_t longest_chain = 32;
     if (const auto files = chain_to(file); !files.empty()) {
         std::string chain;
-        for (const auto& one : files) chain += fmt::format("{} -> ", one.string());
-        problems_.add(where, "E-INCLUDE", fmt::format("'{}' includes itself", file.string()),
-                      fmt::format("{}{}", chain, file.string()));
+        for (const auto& one : files) chain += fmt::format("{} -> ", one.generic_string());
+        problems_.add(where, "E-INCLUDE", fmt::format("'{}' includes itself", file.generic_string()),
+                      fmt::format("{}{}", chain, file.generic_string()));
         return false;
     }
     if (open_.size() < longest_chain) return true;
-    problems_.add(
-        where, "E-INCLUDE",
-        fmt::format("'{}' is included through more than {} other files", file.string(), longest_chain),
-        "reduce the number of files between the pipeline and this include");
+    problems_.add(where, "E-INCLUDE",
+                  fmt::format("'{}' is included through more than {} other files", file.generic_string(),
+                              longest_chain),
+                  "reduce the number of files between the pipeline and this include");
     return false;
 }
 
@@ -139,7 +140,7 @@ Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope
         problems_.add(document->mark, "E-MISSING", "an included file needs stages", "stages: [{relax: 3}]");
         return {};
     }
-    const std::string name = unique_name(file.stem().string(), position.prefix, {});
+    const std::string name = unique_name(file.stem().generic_string(), position.prefix, {});
     open_.push_back(file);
     Steps all = steps(*stages, own, {position.path + ".include", name + "/"}, has_scene);
     open_.pop_back();

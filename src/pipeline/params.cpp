@@ -140,7 +140,7 @@ std::string from_working_directory(const std::string& text, const fs::path& fold
     std::error_code ignored;
     const bool same_file =
         !near.empty() && (!fs::exists(here, ignored) || fs::equivalent(base / near, here, ignored));
-    return same_file ? near.string() : here.string();
+    return same_file ? near.generic_string() : here.generic_string();
 }
 
 /// Parses a list from -D or a table cell: "50%, 10%", or in YAML syntax, "[50%, 10%]".
@@ -405,8 +405,8 @@ void refuse_repeated(const PlanSettings& settings, Problems& problems) {
 
 void add_preset(const fs::path& file, PlanSettings& settings, Problems& problems) {
     const auto input = io::Input::open(file);
-    const Value all = parse_yaml(std::make_shared<const SourceText>(
-                                     SourceText{file.string(), std::string(io::as_text(input.bytes()))}),
+    const Value all = parse_yaml(std::make_shared<const SourceText>(SourceText{
+                                     file.generic_string(), std::string(io::as_text(input.bytes()))}),
                                  problems);
     settings.others.push_back({file, {}, false, {}, true});
     if (!all.is_map() && !all.is_null())

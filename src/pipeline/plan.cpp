@@ -263,7 +263,7 @@ Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& 
     if (file.empty()) return plan_text(source.text, settings, problems);
     const bool streamed = file == "-";
     if (!streamed) settings.others.push_back({file, {}, false});
-    if (settings.name.empty()) settings.name = streamed ? "standard input" : file.string();
+    if (settings.name.empty()) settings.name = streamed ? "standard input" : file.generic_string();
     if (settings.places.input_base.empty() && !streamed) settings.places.input_base = file.parent_path();
     Plan plan = plan_text(source.text, settings, problems);
     for (const auto& read : planned_files(plan.steps, plan.places))

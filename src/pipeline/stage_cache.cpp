@@ -149,10 +149,10 @@ std::string StageCache::key_of(const Step& step, const SceneState& flow, double 
     texts.push_back(std::to_string(step.only.patterns.size()));
     texts.insert(texts.end(), step.only.patterns.begin(), step.only.patterns.end());
     if (step.info->loads)
-        for (const auto& file : files_to_load(step, places_)) texts.push_back(file.string());
+        for (const auto& file : files_to_load(step, places_)) texts.push_back(file.generic_string());
     if (step.info->loads)
         for (const auto& folder : asset_roots_of({step}, places_))
-            texts.push_back("asset_root " + fs::absolute(folder).lexically_normal().string());
+            texts.push_back("asset_root " + fs::absolute(folder).lexically_normal().generic_string());
     return cache::key_of(texts);
 }
 

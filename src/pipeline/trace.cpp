@@ -18,9 +18,9 @@ using Way = TracedStep::Way;
 /// The name of the last run of this pipeline file with the same outputs.
 std::string name_of_last(const Plan& plan, const std::string& pipeline_file) {
     std::vector<std::string> texts{
-        pipeline_file.empty() ? plan.name : fs::absolute(pipeline_file).lexically_normal().string()};
+        pipeline_file.empty() ? plan.name : fs::absolute(pipeline_file).lexically_normal().generic_string()};
     for (const auto& output : planned_outputs(plan))
-        texts.push_back(fs::absolute(output).lexically_normal().string());
+        texts.push_back(fs::absolute(output).lexically_normal().generic_string());
     return cache::key_of(texts);
 }
 

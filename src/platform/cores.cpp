@@ -1,12 +1,9 @@
 #include "platform/cores.hpp"
 
-#include "base/error.hpp"
 #include "base/math/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <sched.h>
@@ -62,18 +59,6 @@ int allowed_cores() {
             if (const auto quota = of_groups(root, path)) cores = std::min(cores, std::ceil(*quota));
     }
     return std::max(1, static_cast<int>(cores));
-}
-
-int default_threads() {
-    const char* given = std::getenv("FACETMILL_JOBS");
-    if (!given || !*given) return allowed_cores();
-    constexpr int most = 4096;
-    const auto count = parse_integer(given);
-    if (!count || *count < 1 || *count > most)
-        throw Error(ErrorKind::usage, "E-ARGUMENT",
-                    fmt::format("FACETMILL_JOBS must be between 1 and {}, found '{}'", most, given),
-                    "unset it to use all cores");
-    return static_cast<int>(*count);
 }
 
 } // namespace facetmill

@@ -21,49 +21,26 @@ std::optional<std::size_t> uninterrupted(Call&& call) {
     }
 }
 
-/// Repeats take until the span is full, or it returns no more bytes.
-template <class Take>
-std::size_t filled(std::span<std::byte> to, Take&& take) {
-    std::size_t done = 0;
-    while (done < to.size()) {
-        const auto n = take(to.subspan(done), done);
-        if (!n || *n == 0) break;
-        done += *n;
-    }
-    return done;
-}
-
 } // namespace
 
 std::optional<std::size_t> read_some(const Descriptor& file, std::span<std::byte> to) {
     return uninterrupted([&] { return ::read(file.number(), to.data(), std::min(to.size(), most_at_once)); });
 }
 
-std::size_t read_whole(const Descriptor& file, std::span<std::byte> to) {
-    return filled(to, [&](std::span<std::byte> rest, std::size_t) { return read_some(file, rest); });
-}
-
-std::size_t read_at(const Descriptor& file, std::uint64_t offset, std::span<std::byte> to) {
-    return filled(to, [&](std::span<std::byte> rest, std::size_t done) {
-        return uninterrupted([&] {
-            return ::pread(file.number(), rest.data(), rest.size(), static_cast<off_t>(offset + done));
-        });
-    });
+std::optional<std::size_t> read_some_at(const Descriptor& file, std::uint64_t offset,
+                                        std::span<std::byte> to) {
+    return uninterrupted(
+        [&] { return ::pread(file.number(), to.data(), to.size(), static_cast<off_t>(offset)); });
 }
 
 std::optional<std::size_t> write_some(const Descriptor& file, std::span<const std::byte> bytes) {
     return uninterrupted([&] { return ::write(file.number(), bytes.data(), bytes.size()); });
 }
 
-bool write_at(const Descriptor& file, std::uint64_t offset, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const auto n = uninterrupted(
-            [&] { return ::pwrite(file.number(), bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
-        if (!n) return false;
-        bytes = bytes.subspan(*n);
-        offset += *n;
-    }
-    return true;
+std::optional<std::size_t> write_some_at(const Descriptor& file, std::uint64_t offset,
+                                         std::span<const std::byte> bytes) {
+    return uninterrupted(
+        [&] { return ::pwrite(file.number(), bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
 }
 
 void begin_sync([[maybe_unused]] const Descriptor& file) {

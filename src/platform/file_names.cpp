@@ -25,6 +25,10 @@ bool touch_file(const fs::path& path) {
     return ::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) == 0;
 }
 
+fs::path comparable_name(fs::path path) { return path; }
+
+bool is_reserved_name(const fs::path&) { return false; }
+
 bool may_read(const fs::path& path) { return ::access(path.c_str(), R_OK) == 0; }
 
 bool may_write(const fs::path& path) { return ::access(path.c_str(), W_OK) == 0; }

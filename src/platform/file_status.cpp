@@ -1,7 +1,5 @@
 #include "platform/file_status.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -32,28 +30,7 @@ FileStatus status_in(const struct stat& about) {
             about.st_mode & 07777U};
 }
 
-std::optional<FileStamp> stamp_in(const std::optional<FileStatus>& status) {
-    return status ? std::optional(status->stamp) : std::nullopt;
-}
-
 } // namespace
-
-std::optional<FileStamp> FileStamp::of(const std::filesystem::path& path) {
-    return stamp_in(status_of(path));
-}
-
-std::optional<FileStamp> FileStamp::of(const Descriptor& file) { return stamp_in(status_of(file)); }
-
-bool FileStamp::has_contents_of(const FileStamp& other) const {
-    FileStamp same = *this;
-    same.changed = other.changed;
-    return same == other;
-}
-
-bool FileStamp::is_settled(std::int64_t now) const {
-    constexpr std::int64_t coarsest = 2 * nanoseconds; // the time resolution of FAT
-    return std::max(modified, changed) + coarsest < now;
-}
 
 bool FileStatus::is_own() const { return owner == ::geteuid(); }
 
@@ -76,11 +53,6 @@ void take_permissions(const Descriptor& file, const FileStatus& from) {
     const bool owned =
         (from.is_own() && from.group == ::getegid()) || ::fchown(file.number(), from.owner, from.group) == 0;
     ::fchmod(file.number(), from.permissions & (owned ? 07777U : 0777U));
-}
-
-std::int64_t nanoseconds_now() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
 } // namespace facetmill

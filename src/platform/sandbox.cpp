@@ -209,7 +209,7 @@ Protections offered_protections() {
     return offered;
 }
 
-Protections active_protections() { return {files_version, calls_given_up}; }
+Protections active_protections() { return {.files = files_version, .calls = calls_given_up}; }
 
 bool confine_files(const AllowedFiles& allowed) {
     const int version = possible ? landlock_version() : 0;

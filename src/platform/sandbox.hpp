@@ -1,7 +1,8 @@
 #pragma once
 // Drops rights before a process reads untrusted files: access to unneeded files (Landlock), and system calls
-// that meshes do not need (seccomp). This cannot be undone. Linux only, depending on its kernel; elsewhere
-// nothing changes. Call it before starting threads: a running thread keeps its access to files.
+// that meshes do not need (seccomp). This cannot be undone. On Linux it depends on the kernel. On Windows,
+// access to files stays, but mitigation policies forbid new code and new processes. Call it before starting
+// threads: a running thread keeps its access to files.
 
 #include <filesystem>
 #include <string>
@@ -11,9 +12,10 @@ namespace facetmill {
 
 /// The protections that the kernel supports, or that are active.
 struct Protections {
-    int files = 0;      ///< the version of Landlock; 0: not available
-    bool calls = false; ///< seccomp
-    bool any() const { return files > 0 || calls; }
+    int files = 0;            ///< the version of Landlock; 0: not available
+    bool calls = false;       ///< seccomp
+    bool mitigations = false; ///< mitigation policies of Windows
+    bool any() const { return files > 0 || calls || mitigations; }
 };
 
 /// The protections that this kernel supports. None with AddressSanitizer, because its leak detection traces

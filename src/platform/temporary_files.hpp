@@ -25,5 +25,7 @@ void remove_abandoned(const std::filesystem::path& directory);
 
 /// The id of this process.
 [[nodiscard]] int process_id();
+/// True if a process with this id exists, or may exist.
+[[nodiscard]] bool is_running(int process);
 
 } // namespace facetmill

@@ -53,6 +53,8 @@ Descriptor start_worker(const std::function<void(const Descriptor&)>& serve) {
     return process < 0 ? Descriptor() : std::move(own);
 }
 
+bool has_workers() { return true; }
+
 bool send_all(const Descriptor& socket, const void* data, std::size_t size) {
     return all_pass(static_cast<const char*>(data), size, [&](const char* at, std::size_t left) {
         return ::send(socket.number(), at, left, MSG_NOSIGNAL);

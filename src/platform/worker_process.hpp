@@ -13,6 +13,9 @@ namespace facetmill {
 /// the caller do not end the process; instead its socket closes. Call it before starting threads.
 [[nodiscard]] Descriptor start_worker(const std::function<void(const Descriptor& socket)>& serve);
 
+/// False on Windows, which cannot copy a process.
+[[nodiscard]] bool has_workers();
+
 /// False if the other side has closed.
 bool send_all(const Descriptor& socket, const void* data, std::size_t size);
 bool receive_all(const Descriptor& socket, void* data, std::size_t size);

@@ -275,7 +275,7 @@ std::string missing_file(const std::string& message) {
     const auto at = message.find(before);
     if (at == message.npos || message.find(" is missing", at) == message.npos) return {};
     const std::string path = message.substr(at + before.size());
-    return std::filesystem::path(path.substr(0, path.find('"'))).filename().string();
+    return std::filesystem::path(path.substr(0, path.find('"'))).filename().generic_string();
 }
 
 constexpr std::string_view our_fault = "We could not process the model because of a problem on our side. "

@@ -163,7 +163,7 @@ void Context::report(const Fields& fields, const void* result) {
 void Context::output(const std::string& path, io::Span bytes) {
     const auto& staged = run_.outputs.add(run_.places.output(path), bytes, where_);
     run_.record.outputs.push_back(
-        {fs::path(path).lexically_normal().string(), staged.bytes, staged.sha256, {}});
+        {fs::path(path).lexically_normal().generic_string(), staged.bytes, staged.sha256, {}});
 }
 
 void Context::wrote(WrittenScene written) {

@@ -23,9 +23,10 @@ void record_input(Context& context, const std::string& path, io::Span bytes) {
 
 /// Records the checksum of the bytes read, because the file may have been replaced since.
 void record_neighbour(Context& context, const io::ReadFile& file) {
-    if (!file.sha256.empty()) return record_input(context, file.path.string(), file.bytes, file.sha256);
+    if (!file.sha256.empty())
+        return record_input(context, file.path.generic_string(), file.bytes, file.sha256);
     context.mark_uncacheable(); // the file may differ now from the bytes that the reader saw
-    record_input(context, file.path.string(), io::Input::open(file.path).stored());
+    record_input(context, file.path.generic_string(), io::Input::open(file.path).stored());
 }
 
 } // namespace
@@ -43,7 +44,7 @@ std::pair<Scene, io::ReadLog> read_recorded(const std::filesystem::path& path,
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_neighbour(context, file);
-    for (const auto& file : log.absent) context.record_absent(file.string());
+    for (const auto& file : log.absent) context.record_absent(file.generic_string());
     if (log.unrepeatable || !input.is_as_opened()) context.mark_uncacheable();
     return {std::move(scene), std::move(log)};
 }

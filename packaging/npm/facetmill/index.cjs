@@ -14,12 +14,12 @@ class FacetmillError extends Error {
   }
 }
 
-const systems = ['linux-x64', 'linux-arm64'];
+const systems = ['linux-x64', 'linux-arm64', 'win32-x64'];
 const machines = { 0x3e: 'x64', 0xb7: 'arm64' };  // e_machine of an ELF file
 
 function packaged(system) {
   try {
-    return require.resolve(`facetmill-${system}/bin/facetmill`);
+    return require.resolve(`facetmill-${system}/bin/facetmill${system.startsWith('win32') ? '.exe' : ''}`);
   } catch {
     return undefined;
   }
@@ -28,7 +28,7 @@ function packaged(system) {
 function missing(system) {
   const published = `facetmill-${system}` in require('./package.json').optionalDependencies;
   const other = systems.find(packaged), built = 'or set FACETMILL to a program that you have built';
-  if (!published) return `facetmill has no program for ${system} yet: use Linux on x64, also in a container or WSL, ${built}`;
+  if (!published) return `facetmill has no program for ${system} yet: use Linux or Windows on x64, ${built}`;
   if (other) return `facetmill-${other} is installed, and this machine needs facetmill-${system}: ` +
       'run npm install here, in place of a copied node_modules';
   return `facetmill has no program for ${system} here: install the package facetmill-${system} ` +

@@ -85,11 +85,11 @@ void expand(const fs::path& base, std::vector<fs::path>::const_iterator componen
         if (fs::is_regular_file(base, ignored)) found.push_back(base);
         return;
     }
-    const std::string name = component->string();
+    const std::string name = component->generic_string();
     if (!is_glob(name)) return expand(base / name, component + 1, end, found);
     if (name == "**") expand(base, component + 1, end, found);
     for (const auto& entry : fs::directory_iterator(base.empty() ? fs::path(".") : base, ignored)) {
-        const std::string child = entry.path().filename().string();
+        const std::string child = entry.path().filename().generic_string();
         if (child.starts_with('.') && !name.starts_with('.')) continue;
         if (name == "**") {
             if (entry.is_directory(ignored) && !entry.is_symlink(ignored))
@@ -133,7 +133,7 @@ bool components_match(Component pattern, Component pattern_end, Component path, 
     if (*pattern == "**")
         return components_match(pattern + 1, pattern_end, path, path_end) ||
                (path != path_end && components_match(pattern, pattern_end, path + 1, path_end));
-    return path != path_end && component_matches(pattern->string(), path->string()) &&
+    return path != path_end && component_matches(pattern->generic_string(), path->generic_string()) &&
            components_match(pattern + 1, pattern_end, path + 1, path_end);
 }
 
@@ -146,14 +146,14 @@ bool glob_matches_path(const fs::path& pattern, const fs::path& path) {
 
 std::vector<fs::path> expand_glob(const fs::path& pattern) {
     std::error_code ignored;
-    if (!is_glob(pattern.string()) || fs::exists(pattern, ignored)) return {pattern};
+    if (!is_glob(pattern.generic_string()) || fs::exists(pattern, ignored)) return {pattern};
     const fs::path below = pattern.relative_path();
     std::vector<fs::path> components(below.begin(), below.end());
     if (components.back() == "**") components.emplace_back("*"); // at the end, ** matches all files below
     std::vector<fs::path> found;
     expand(pattern.root_path(), components.begin(), components.end(), found);
     std::sort(found.begin(), found.end(),
-              [](const auto& a, const auto& b) { return a.native() < b.native(); });
+              [](const auto& a, const auto& b) { return a.generic_string() < b.generic_string(); });
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
 }

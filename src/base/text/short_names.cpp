@@ -12,7 +12,7 @@ std::vector<std::string> components_of(const std::string& path) {
     if (path == "-") return {"standard input"};
     std::vector<std::string> out;
     for (const auto& component : std::filesystem::path(path).lexically_normal())
-        if (!component.empty()) out.insert(out.begin(), component.string());
+        if (!component.empty()) out.insert(out.begin(), component.generic_string());
     return out.empty() ? std::vector<std::string>{path} : out;
 }
 

@@ -288,7 +288,7 @@ std::vector<std::uint8_t> LeftCells::take_up(const std::vector<std::uint8_t>& am
         ++reused;
         for (const std::size_t child : hierarchy_nodes_[s].children) wanted[child] = 0;
     }
-    const std::string where = kept_->path().string();
+    const std::string where = kept_->path().generic_string();
     if (others > 0)
         kept_->tell(fmt::format("{} from other inputs or options removed from '{}'",
                                 counted(others, "simplified cell"), where));

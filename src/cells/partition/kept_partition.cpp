@@ -77,15 +77,15 @@ class PartitionKeeper {
         std::string why;
         if (auto taken = take(why)) {
             folder_.tell(fmt::format("{} reused from '{}'", counted(taken->tree().leaves.size(), "cell"),
-                                     folder_.path().string()));
+                                     folder_.path().generic_string()));
             if (means_.job && means_.job->makes_cells()) // the time must be newer than the inputs
                 for (const char* name : kept_files) folder_.touch(name);
             return taken;
         }
         if (is_beside_others())
-            make_cells_due(folder_, why.empty()
-                                        ? fmt::format("there are no cells in '{}'", folder_.path().string())
-                                        : why);
+            make_cells_due(folder_, why.empty() ? fmt::format("there are no cells in '{}'",
+                                                              folder_.path().generic_string())
+                                                : why);
         if (!why.empty()) folder_.tell(why + ": they are made again");
         return make();
     }
@@ -105,7 +105,8 @@ class PartitionKeeper {
         const Json manifest = parse_json(io::as_text(*text), Broken::discarded);
         if (!manifest.is_object() || !manifest.contains("sha256") ||
             manifest["sha256"] != digest_of(manifest)) {
-            why = fmt::format("the manifest of the cells in '{}' is damaged", folder_.path().string());
+            why =
+                fmt::format("the manifest of the cells in '{}' is damaged", folder_.path().generic_string());
             return {};
         }
         find_digests();
@@ -122,7 +123,7 @@ class PartitionKeeper {
         } catch (const std::logic_error&) {
         } catch (const Error&) { // a file is missing or unreadable
         }
-        if (why.empty()) why = fmt::format("cells in '{}' cannot be read", folder_.path().string());
+        if (why.empty()) why = fmt::format("cells in '{}' cannot be read", folder_.path().generic_string());
         return {};
     }
 
@@ -149,7 +150,7 @@ class PartitionKeeper {
         const Json expected = origin();
         for (const auto& [key, what] : told)
             if (!manifest.contains(key) || manifest[key] != expected[key])
-                return fmt::format("cells in '{}' belong to {}", folder_.path().string(), what);
+                return fmt::format("cells in '{}' belong to {}", folder_.path().generic_string(), what);
         return {};
     }
 
@@ -168,7 +169,7 @@ class PartitionKeeper {
                                : count_damaged(records_file, records) + count_damaged(borders_file, borders);
         if (damaged > 0) {
             why = fmt::format("{} of the {} cells in '{}' {} damaged", damaged, depths.size(),
-                              folder_.path().string(), damaged == 1 ? "is" : "are");
+                              folder_.path().generic_string(), damaged == 1 ? "is" : "are");
             return {};
         }
         const auto opened = [&](const char* name) {

@@ -257,12 +257,12 @@ std::unique_ptr<FaceSource> open_faces(const std::vector<std::filesystem::path>&
     for (const auto& path : paths) {
         if (const auto why = why_not_streamed(path))
             throw Error(ErrorKind::usage, "E-CELLS",
-                        fmt::format("'{}' cannot be processed in cells: {}", path.string(), *why),
+                        fmt::format("'{}' cannot be processed in cells: {}", path.generic_string(), *why),
                         "write it as binary PLY or STL first, or use more memory");
         inputs.push_back(open_mapped(path).with_asset_roots(settings.asset_roots));
     }
     FaceSource::Contents contents;
-    contents.name = paths.front().stem().string();
+    contents.name = paths.front().stem().generic_string();
     for (const auto& input : inputs) take_comments(input, contents);
     const io::Input& first = inputs.front();
     const Format format = format_of(first);

@@ -3,6 +3,7 @@
 #include "cells/storage/packed_numbers.hpp"
 #include "cells/storage/stream.hpp"
 #include "platform/file_bytes.hpp"
+#include "platform/free_space.hpp"
 #include "platform/temporary_files.hpp"
 
 #include <algorithm>
@@ -36,11 +37,11 @@ std::uint64_t digest_of(io::Span bytes) {
 
 /// Throws the errors of io::cannot_write, with a hint for scratch folders. error: an errno.
 [[noreturn]] void cannot_write_there(const fs::path& folder, int error) {
-    const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-    throw Error(
-        ErrorKind::output, full ? "E-SPACE" : "E-WRITE",
-        fmt::format("temporary data cannot be written in '{}': {}", folder.string(), std::strerror(error)),
-        "give another folder: --scratch DIR, or --keep-cells DIR if the cells are kept");
+    const bool full = means_no_space(error);
+    throw Error(ErrorKind::output, full ? "E-SPACE" : "E-WRITE",
+                fmt::format("temporary data cannot be written in '{}': {}", folder.generic_string(),
+                            std::strerror(error)),
+                "give another folder: --scratch DIR, or --keep-cells DIR if the cells are kept");
 }
 
 } // namespace
@@ -48,7 +49,7 @@ std::uint64_t digest_of(io::Span bytes) {
 void unreadable_scratch(const fs::path& folder) {
     throw UnreadableScratch(
         ErrorKind::output, "E-SCRATCH",
-        fmt::format("temporary data in '{}' differs from the data that was written", folder.string()),
+        fmt::format("temporary data in '{}' differs from the data that was written", folder.generic_string()),
         "run it again with --scratch DIR on another disk");
 }
 

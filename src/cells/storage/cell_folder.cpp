@@ -20,7 +20,7 @@ constexpr std::string_view lock_name = "facetmill-cells.lock";
 
 [[noreturn]] void cannot_keep(const fs::path& path, const std::string& why) {
     throw Error(ErrorKind::output, "E-WRITE",
-                fmt::format("cells cannot be kept in '{}': {}", path.string(), why),
+                fmt::format("cells cannot be kept in '{}': {}", path.generic_string(), why),
                 "give another folder with --keep-cells DIR");
 }
 
@@ -50,7 +50,7 @@ void CellFolder::take_lock(const std::string& name, Lock how) {
     const int why = errno;
     if (!lock || why != EWOULDBLOCK) cannot_keep(settings_.path, std::strerror(why));
     throw Error(ErrorKind::output, "E-BUSY",
-                fmt::format("another run is using the cells in '{}'", settings_.path.string()),
+                fmt::format("another run is using the cells in '{}'", settings_.path.generic_string()),
                 "wait until it ends, or give another folder with --keep-cells");
 }
 
@@ -102,7 +102,7 @@ std::vector<std::string> CellFolder::names(const std::string& begin) const {
     std::vector<std::string> names;
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(settings_.path, ignored)) {
-        std::string name = entry.path().filename().string();
+        std::string name = entry.path().filename().generic_string();
         if (name.starts_with(begin)) names.push_back(std::move(name));
     }
     std::sort(names.begin(), names.end());

@@ -15,7 +15,7 @@ ReadFile::ReadFile(const std::filesystem::path& path) : path_(path) {
     file_ = open_file(path);
     if (!file_)
         throw Error(ErrorKind::missing, "E-FILE",
-                    fmt::format("'{}' cannot be read: {}", path.string(), std::strerror(errno)));
+                    fmt::format("'{}' cannot be read: {}", path.generic_string(), std::strerror(errno)));
     stamp_ = FileStamp::of(file_);
 }
 
@@ -23,7 +23,7 @@ void ReadFile::read(std::uint64_t offset, std::span<std::byte> to) const {
     const std::size_t done = read_at(file_, offset, to);
     if (done == to.size()) return;
     if (temporary_) unreadable_scratch(path_);
-    io::malformed(path_.string(), 0, "E-CHANGED",
+    io::malformed(path_.generic_string(), 0, "E-CHANGED",
                   fmt::format("byte {} cannot be read any more", offset + done),
                   "run it again while no other program writes to the file");
 }

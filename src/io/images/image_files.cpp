@@ -86,7 +86,7 @@ std::string hint_for_asset_root(const Input& input, const std::optional<fs::path
         if (step == "..") folder /= step;
     folder = folder.lexically_normal();
     if (!folder.has_filename()) folder = folder.parent_path(); // converts "assets/" to "assets"
-    const std::string name = for_shell(folder.empty() ? "." : folder.string());
+    const std::string name = for_shell(folder.empty() ? "." : folder.generic_string());
     return fmt::format(
         "--asset-root {0}, or load: {{path: ..., asset_root: {0}}}, allows the files below that folder",
         name);
@@ -96,7 +96,7 @@ std::optional<fs::path> relative_path_of(std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     if (name.find('\0') != std::string::npos) return {};
     const fs::path path = fs::path(name).lexically_normal();
-    if (path.empty() || path.is_absolute() || path == "." || !path.has_filename()) return {};
+    if (path.empty() || path.has_root_path() || path == "." || !path.has_filename()) return {};
     return path;
 }
 
@@ -118,12 +118,12 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
     if (!fs::is_regular_file(*path, ignored)) {
         log.absent.push_back(*path);
         return refuse(
-            fmt::format("the file \"{}\" is missing", path->string()),
+            fmt::format("the file \"{}\" is missing", path->generic_string()),
             "put the image into that folder, or export the model with its textures in the file (GLB)");
     }
     const auto size = fs::file_size(*path, ignored);
     if (!ignored)
-        require_memory(2.0 * static_cast<double>(size), fmt::format("reading '{}'", path->string()),
+        require_memory(2.0 * static_cast<double>(size), fmt::format("reading '{}'", path->generic_string()),
                        "use a machine with more memory");
     try {
         const Input image = Input::open(*path);
@@ -186,10 +186,12 @@ fs::path file_name_of_image(const std::string& name, std::size_t index, Span byt
     constexpr std::size_t most = 100;
     const std::string suffix = suffix_of_image(media_type(bytes));
     std::string stem = name.empty() ? fmt::format("image{}", index) : name;
-    const std::string last = lower_case(fs::path(stem).extension().string());
+    const std::string last = lower_case(fs::path(stem).extension().generic_string());
     if (last == suffix || last == ".jpeg") stem.resize(stem.size() - last.size());
     for (char& c : stem)
-        if (c == '/' || c == '\0') c = '_';
+        if (static_cast<unsigned char>(c) < ' ' ||
+            std::string_view(R"(/\:*?"<>|)").find(c) != std::string_view::npos)
+            c = '_';                               // some systems forbid these in names
     std::size_t end = std::min(stem.size(), most); // avoids cutting a character
     while (end < stem.size() && end > 0 && (static_cast<unsigned char>(stem[end]) & 0xc0) == 0x80) --end;
     return stem.substr(0, end) + suffix;
@@ -217,7 +219,7 @@ ImageNames::ImageNames(const std::string& stem, Spelling spelling)
 
 fs::path ImageNames::add(const fs::path& relative) {
     const auto spelled = [&](const fs::path& step) {
-        return spelling_ == Spelling::plain ? plain_step(step.string()) : step.string();
+        return spelling_ == Spelling::plain ? plain_step(step.generic_string()) : step.generic_string();
     };
     const std::string file = spelled(relative.filename());
     const std::string name = file.starts_with(stem_ + ".") ? file : stem_ + "." + file;
@@ -227,7 +229,7 @@ fs::path ImageNames::add(const fs::path& relative) {
     fs::path path = folder / name;
     const fs::path plain = fs::path(name).stem(), extension = fs::path(name).extension();
     for (int n = 2; !taken_.insert(lower_case(path.generic_string())).second; ++n)
-        path = folder / fmt::format("{}.{}{}", plain.string(), n, extension.string());
+        path = folder / fmt::format("{}.{}{}", plain.generic_string(), n, extension.generic_string());
     return path;
 }
 

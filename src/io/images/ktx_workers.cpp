@@ -37,7 +37,7 @@ struct AnswerMessage {
 
 // --- the worker process
 
-bool is_toktx(const fs::path& program) { return program.filename().string().starts_with("toktx"); }
+bool is_toktx(const fs::path& program) { return program.filename().generic_string().starts_with("toktx"); }
 
 std::vector<std::string> common_arguments(const OrderMessage& order, const char* quality_option,
                                           const char* uastc_option) {

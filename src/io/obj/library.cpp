@@ -155,8 +155,9 @@ class LibraryReader {
         if (map.file.empty()) return;
         std::string path = map.file;
         std::replace(path.begin(), path.end(), '\\', '/');
-        const auto relative =
-            fs::path(path).is_absolute() ? std::nullopt : relative_path_of((folder_ / path).string());
+        const auto relative = fs::path(path).has_root_path()
+                                  ? std::nullopt
+                                  : relative_path_of((folder_ / path).generic_string());
         if (relative) map.relative = *relative;
         current_->maps[map_key(word)] = std::move(map);
     }

@@ -50,10 +50,11 @@ void add_emission(Json& json, const Description& d, bool textured) {
 
 /// The name of an image derived from one or two others: "wood-mask.png".
 std::filesystem::path derived_name(const Map* first, const Map& second) {
-    const std::string stem = second.relative.stem().string();
+    const std::string stem = second.relative.stem().generic_string();
     if (!first || first->relative == second.relative)
         return second.relative.parent_path() / (stem + "-gltf.png");
-    return first->relative.parent_path() / fmt::format("{}-{}.png", first->relative.stem().string(), stem);
+    return first->relative.parent_path() /
+           fmt::format("{}-{}.png", first->relative.stem().generic_string(), stem);
 }
 
 } // namespace
@@ -245,7 +246,7 @@ void MaterialMaker::add_relief_map(Json& json, const std::string& name, const De
     if (!pixels) return;
     if (is_grey(*pixels)) {
         std::filesystem::path path = derived_name(nullptr, bump->second);
-        path.replace_filename(path.stem().string() + "-normals.png");
+        path.replace_filename(path.stem().generic_string() + "-normals.png");
         const std::string how = fmt::format("relief {}", bump->second.strength);
         json["normalTexture"] =
             reference(path,

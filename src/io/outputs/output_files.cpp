@@ -4,6 +4,7 @@
 #include "platform/file_bytes.hpp"
 #include "platform/file_names.hpp"
 #include "platform/file_status.hpp"
+#include "platform/free_space.hpp"
 #include "platform/sandbox.hpp"
 #include "platform/temporary_files.hpp"
 
@@ -31,8 +32,8 @@ std::string hint_to_write(const fs::path& target, int error) {
 }
 
 void cannot_write(const fs::path& target, int error) {
-    const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.string());
-    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+    const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.generic_string());
+    if (means_no_space(error))
         throw Error(ErrorKind::output, "E-SPACE", fmt::format("no space left to write {}", name),
                     fmt::format("free some space there, or {}", write_elsewhere));
     if (error == EPIPE)
@@ -57,7 +58,7 @@ void write_all(const Descriptor& file, Span bytes, const fs::path& target) {
 }
 
 bool is_stream(const fs::path& target) {
-    const std::string text = target.string();
+    const std::string text = target.generic_string();
     if (text == "-" || text.starts_with("/dev/fd/") || text.starts_with("/proc/") || text == "/dev/stdout" ||
         text == "/dev/stderr")
         return true;
@@ -82,7 +83,7 @@ fs::path identity(const fs::path& path) {
     if (path == "-") return path;
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(path), error);
-    return error ? fs::absolute(path).lexically_normal() : whole;
+    return comparable_name(error ? fs::absolute(path).lexically_normal() : whole);
 }
 
 void keep_permissions(const Descriptor& file, const fs::path& target, const fs::path& given) {

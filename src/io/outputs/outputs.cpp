@@ -70,7 +70,7 @@ void Outputs::make_directory(const fs::path& directory) {
             why == ENOENT || (why == EEXIST && !fs::exists(fs::symlink_status(directory, error)));
         if (vanished && attempt < max_attempts) continue;
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
-                    fmt::format("the directory '{}' cannot be made: {}", directory.string(),
+                    fmt::format("the directory '{}' cannot be made: {}", directory.generic_string(),
                                 why == EEXIST ? "a file has this name" : std::strerror(why)),
                     hint_to_write(directory, why));
     }
@@ -132,14 +132,15 @@ namespace {
 
 [[noreturn]] void refuse_input(const fs::path& target, const Mark& where) {
     throw Error(ErrorKind::output, "E-OVERWRITE",
-                fmt::format("'{}' would overwrite an input", target.string()),
+                fmt::format("'{}' would overwrite an input", target.generic_string()),
                 "give the output another name, or write elsewhere with --output-dir", where);
 }
 
 [[noreturn]] void refuse_twice(const fs::path& target) {
-    throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
-                fmt::format("'{}' is written twice in one run, with different contents", target.string()),
-                "give the second output another name or folder");
+    throw Error(
+        ErrorKind::output, "E-DUPLICATE-OUTPUT",
+        fmt::format("'{}' is written twice in one run, with different contents", target.generic_string()),
+        "give the second output another name or folder");
 }
 
 } // namespace
@@ -149,6 +150,12 @@ void Outputs::protect(const fs::path& input, std::string sum) {
 }
 
 std::unique_ptr<Outputs::File> Outputs::file_for(const fs::path& target, const Mark& where) const {
+    if (is_reserved_name(target))
+        throw Error(ErrorKind::output, "E-WRITE",
+                    fmt::format("'{}' cannot be written: Windows does not allow this file name",
+                                target.generic_string()),
+                    "give another name, without : * ? \" < > |, that is no device such as NUL or AUX")
+            .at(where);
     auto file = std::make_unique<File>();
     file->target = target;
     file->where = where;
@@ -220,7 +227,7 @@ const Outputs::File& Outputs::hold(std::unique_ptr<File> file, const fs::path& s
 
 Input Outputs::staged(const File& file) const {
     if (file.is_input) return Input::open(file.resolved);
-    if (is_streamed(file)) return Input::of(file.target.string(), file.stream);
+    if (is_streamed(file)) return Input::of(file.target.generic_string(), file.stream);
     auto instead = std::make_shared<Input::Instead>();
     for (const auto& other : files_)
         if (!other->temporary.empty()) instead->emplace(other->target.lexically_normal(), other->temporary);

@@ -27,7 +27,7 @@ std::optional<Material> material_of(MaterialDocument& document, const Input& inp
     const auto bytes = texture_bytes(input, texture, log);
     if (!bytes) return {};
     const auto relative = relative_path_of(texture);
-    return document.add({{"name", relative->stem().string()},
+    return document.add({{"name", relative->stem().generic_string()},
                          {"pbrMetallicRoughness",
                           {{"baseColorTexture", {{"index", document.texture(*relative, *bytes, false)}}},
                            {"metallicFactor", 0}}}},

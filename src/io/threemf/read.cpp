@@ -261,7 +261,7 @@ class SceneMaker {
         }
         const std::filesystem::path file = std::filesystem::path(texture.path).filename();
         Json json = {
-            {"name", file.stem().string()},
+            {"name", file.stem().generic_string()},
             {"pbrMetallicRoughness",
              {{"baseColorTexture", {{"index", document_.texture(file, *bytes, texture.clamp, false)}}},
               {"metallicFactor", 0}}}};

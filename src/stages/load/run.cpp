@@ -137,7 +137,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     const bool first = scene.parts.empty(), had_unit = scene.unit != Unit::unknown;
     const io::Conversion done = io::add_scene(scene, std::move(more));
     if (!first && done.unit_guessed)
-        warn_of_guess(fmt::format("'{}' has", path.string()), scene.unit, context);
+        warn_of_guess(fmt::format("'{}' has", path.generic_string()), scene.unit, context);
     if (!first && !had_unit && scene.unit != Unit::unknown)
         warn_of_guess("the unit of the scene", scene.unit, context);
 }
@@ -170,7 +170,7 @@ void warn_of_conventions(const std::vector<std::filesystem::path>& paths, const 
         for (const auto& w : io::overridden(input.name(), {stated.unit, stated.up}, settings))
             context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
         if (unit != Unit::unknown && !settings.unit && stated.unit == Unit::unknown)
-            warn_of_guess(fmt::format("'{}' has", path.string()), unit, context);
+            warn_of_guess(fmt::format("'{}' has", path.generic_string()), unit, context);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/images/ktx_workers.hpp"
 #include "options/mark_at.hpp"
+#include "platform/worker_process.hpp"
 #include "stage/options/synonyms.hpp"
 
 #include <cstdlib>
@@ -92,6 +93,12 @@ void declare_textures(Declare<TexturesOptions>& d) {
 }
 
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems) {
+    if (wants_ktx2(o) && !has_workers()) {
+        add_refusal(Refusal{"format", "facetmill cannot write KTX2 on this system",
+                            "use format: webp, or run this stage on Linux", "E-KTX"},
+                    "textures", given, problems);
+        return;
+    }
     if (wants_ktx2(o) && !io::ktx_program()) {
         const char* named = std::getenv("FACETMILL_KTX");
         add_refusal(

@@ -81,7 +81,7 @@ Error about_image(const Error& error, const std::string& image) {
     const auto program = io::ktx_program();
     return {error.kind(), first.id,
             fmt::format("textures: for the image '{}' {} {}", image,
-                        program ? program->filename().string() : "ktx", first.message),
+                        program ? program->filename().generic_string() : "ktx", first.message),
             first.hint.empty() ? "run facetmill explain E-KTX" : first.hint};
 }
 

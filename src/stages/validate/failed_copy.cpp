@@ -80,7 +80,7 @@ void verify_failed_copy(const std::string& path, const Value& given, Problems& p
 void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,
                        const std::filesystem::path& path) {
     io::WriteSettings settings;
-    settings.title = path.stem().string();
+    settings.title = path.stem().generic_string();
     const io::Written written = io::codec_for(path)->write(failed_copy(scene, flags), settings);
     for (const auto& file : written.files) io::write_now(path.parent_path() / file.name, file.bytes);
 }

@@ -264,10 +264,10 @@ class Judge {
         const auto gone = known_.gone(failed_);
         report_ = {waived_, waived_locations_, gone.failures, gone.locations};
         if (known_.size() > 0 && any_ && !any_known_)
-            context_.warn(
-                "W-BASELINE",
-                fmt::format("none of the failures in '{}' occurs here, but others do", s_.baseline->string()),
-                "check that the baseline belongs to this mesh and these parts");
+            context_.warn("W-BASELINE",
+                          fmt::format("none of the failures in '{}' occurs here, but others do",
+                                      s_.baseline->generic_string()),
+                          "check that the baseline belongs to this mesh and these parts");
     }
 
     JudgeSettings s_;

@@ -135,7 +135,7 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
     const Json json =
         parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, Broken::discarded);
     const auto refuse = [&](const char* what = "is not a baseline of validate") {
-        return Error(ErrorKind::malformed, "E-BASELINE", fmt::format("'{}' {}", path.string(), what),
+        return Error(ErrorKind::malformed, "E-BASELINE", fmt::format("'{}' {}", path.generic_string(), what),
                      "write one with update_baseline: true");
     };
     if (!json.is_object() || !json.contains("failures") || !json["failures"].is_array()) throw refuse();

@@ -25,7 +25,7 @@ void read_again(const io::Outputs::File& file, Context& context) {
     all.skip(file.bytes);
     if (sum.digest() != file.sha256)
         throw Error(ErrorKind::output, "E-READBACK",
-                    fmt::format("'{}' cannot be read back as written", file.target.string()),
+                    fmt::format("'{}' cannot be read back as written", file.target.generic_string()),
                     "write it to another disk", context.where());
 }
 
@@ -50,8 +50,8 @@ struct Staged {
 /// Stages bytes as a file under the pipeline's name.
 Staged stage_one(const std::filesystem::path& name, io::Span bytes, Context& context) {
     const auto& staged =
-        context.outputs().add(context.places().output(name.string()), bytes, context.where());
-    const std::string told = name.lexically_normal().string();
+        context.outputs().add(context.places().output(name.generic_string()), bytes, context.where());
+    const std::string told = name.lexically_normal().generic_string();
     return {&staged, {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, bytes)}};
 }
 
@@ -76,7 +76,7 @@ void write_tileset(const WriteOptions& o, const io::WriteSettings& settings, Cel
     const Transform transform = outline.parts.front().transform;
     cells::WrittenTiles written =
         cells::write_tiles(*flow.partition, transform, settings, flow.means, [&](const io::OutputFile& file) {
-            tiles.emplace(file.name.string(), stage_one(folder / file.name, file.bytes, context));
+            tiles.emplace(file.name.generic_string(), stage_one(folder / file.name, file.bytes, context));
         });
     std::vector<const io::Outputs::File*> staged;
     const auto tell = [&](const Staged& one) {
@@ -165,7 +165,7 @@ void write_on_cells(const WriteOptions& o, CellFlow& flow, Context& context) {
         context.where());
     warn_of_rounding(rounding, o, codec, flow, context);
     if (codec.name == "glb") tell_of_positions_only(o, flow, outline.parts.front(), context);
-    const std::string told = std::filesystem::path(o.path.text).lexically_normal().string();
+    const std::string told = std::filesystem::path(o.path.text).lexically_normal().generic_string();
     context.output_records().push_back(
         {told, staged.bytes, staged.sha256, {}, io::byte_kinds(told, staged.bytes, {})});
     tell_written(staged, 1, codec.name, outline, context);

@@ -280,17 +280,17 @@ WrittenScene stage_files(const io::Written& written, const std::filesystem::path
         if (main && path == "-") {
             context.warn("W-SKIPPED",
                          fmt::format("'{}' cannot be written to standard output together with the mesh",
-                                     file.name.string()));
+                                     file.name.generic_string()));
             continue;
         }
         const io::Packing packing = main ? io::Packing::none : io::packing_named(path);
         const bool packs = packing != io::Packing::none;
         const io::Bytes packed = packs ? io::packed(file.bytes, packing) : io::Bytes{};
         const std::filesystem::path name = main ? path.parent_path() / file.name : path;
-        const auto& staged = context.outputs().add(context.places().output(name.string()),
+        const auto& staged = context.outputs().add(context.places().output(name.generic_string()),
                                                    packs ? packed : file.bytes, context.where());
         if (!main) main = &staged;
-        const std::string told = name.lexically_normal().string();
+        const std::string told = name.lexically_normal().generic_string();
         context.output_records().push_back(
             {told,
              staged.bytes,
@@ -311,15 +311,15 @@ WrittenScene stage_files(const io::Written& written, const std::filesystem::path
     context.output_records()[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",
-                     fmt::format("'{}' has more defects when read back than the scene: {}", path.string(),
-                                 fmt::join(back.losses, ", ")),
+                     fmt::format("'{}' has more defects when read back than the scene: {}",
+                                 path.generic_string(), fmt::join(back.losses, ", ")),
                      reason(back, codec, settings));
     if (back.too_far_for_floats())
         context.warn(
             "W-ROUNDED",
             fmt::format("'{}': points moved by up to {:.2g}, because 32-bit floats are {:.2g} apart so far "
                         "from the origin (the diagonal is {:.4g})",
-                        path.string(), back.position_error, back.float_step, back.diagonal),
+                        path.generic_string(), back.position_error, back.float_step, back.diagonal),
             codec.can.full_precision && !settings.double_positions
                 ? "precision: full keeps all digits"
                 : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");

@@ -149,7 +149,7 @@ namespace {
 
 /// Names the stage that writes such a file, otherwise lists the formats.
 std::string hint_of_suffix(const std::string& path, const std::vector<std::string>& names) {
-    const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
+    const std::string suffix = lower_case(std::filesystem::path(path).extension().generic_string());
     if (suffix == ".svg" || suffix == ".dxf")
         return fmt::format("use section: {{path: {}}} to draw a plane section", path);
     if (suffix == ".png") return fmt::format("use render: {{path: {}}} to make an image", path);
@@ -211,7 +211,7 @@ StageFiles files_of_write(const WriteOptions& o) {
     StageFiles files{{}, {o.path}};
     if (!codec || o.path.text == "-") return files;
     const auto beside = [&](const std::string& suffix) {
-        return PathText{(path.parent_path() / (title_of(path) + suffix)).string()};
+        return PathText{(path.parent_path() / (title_of(path) + suffix)).generic_string()};
     };
     if (!codec->can.companion.empty()) files.outputs.push_back(beside(codec->can.companion));
     if (!codec->can.library.empty()) files.materials = beside(codec->can.library);
@@ -220,7 +220,7 @@ StageFiles files_of_write(const WriteOptions& o) {
     const bool embeds = o.file.textures == Textures::embed ||
                         (o.file.textures == Textures::automatic && !codec->can.copies_images);
     if (codec->can.honours("textures") && !embeds)
-        files.images = codec->can.honours("tiles") ? beside("/" + path.filename().string()) : o.path;
+        files.images = codec->can.honours("tiles") ? beside("/" + path.filename().generic_string()) : o.path;
     if (o.file.textures == Textures::reference)
         files.copies = [](const io::NamedImage& image) { return !image.is_file; };
     return files;

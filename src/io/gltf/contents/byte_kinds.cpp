@@ -61,7 +61,7 @@ ByteKinds of_document(std::string_view text, std::uint64_t size, bool has_own_bu
 }
 
 ByteKinds by_name(const std::string& name, std::uint64_t size) {
-    std::string suffix = std::filesystem::path(name).extension().string();
+    std::string suffix = std::filesystem::path(name).extension().generic_string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     static constexpr std::array pictures{".png",   ".jpg", ".jpeg", ".webp", ".ktx2",

@@ -203,7 +203,8 @@ class Replacing {
         if (fresh && before != type) {
             const std::filesystem::path path = decoded_path(old).value_or("image");
             const auto named = [&](const std::string& more) {
-                return uri_of(path.parent_path() / (path.stem().string() + more + suffix_of_image(type)));
+                return uri_of(path.parent_path() /
+                              (path.stem().generic_string() + more + suffix_of_image(type)));
             };
             place->second = named("");
             for (int n = 2; out_.files.contains(place->second); ++n)
@@ -337,7 +338,7 @@ std::string name_of_image(const Json& image, std::size_t index) {
         if (const auto name = image["name"].get<std::string>(); !name.empty()) return name;
     if (image.is_object() && image.contains("uri") && image["uri"].is_string())
         if (const auto uri = image["uri"].get<std::string>(); !is_data_uri(uri))
-            if (const auto path = decoded_path(uri)) return path->filename().string();
+            if (const auto path = decoded_path(uri)) return path->filename().generic_string();
     return fmt::format("images[{}]", index);
 }
 

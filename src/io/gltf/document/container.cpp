@@ -176,7 +176,7 @@ Bytes resolve_with_tinygltf(const JsonCursor& buffer, const std::string& uri, Ne
     if (neighbour.error != 0)
         throw Error(ErrorKind::missing, "E-FILE",
                     fmt::format("{}.uri: the file \"{}\" cannot be read: {}", buffer.path(),
-                                neighbour.path.string(), std::strerror(neighbour.error)));
+                                neighbour.path.generic_string(), std::strerror(neighbour.error)));
     if (!loaded || model.buffers.size() != 1)
         buffer.fail(fmt::format("expected {} bytes, but {} has fewer", neighbour.bytes,
                                 is_data_uri(uri) ? "the data URI" : "the file \"" + uri + "\""),
@@ -194,11 +194,11 @@ Bytes load_uri(const JsonCursor& buffer, const std::string& uri, std::size_t len
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored))
         throw Error(ErrorKind::missing, "E-FILE",
-                    fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path.string()));
+                    fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path.generic_string()));
     const auto size = fs::file_size(path, ignored);
     if (!ignored)
         require_memory(2.0 * static_cast<double>(std::min<std::uintmax_t>(size, length)),
-                       fmt::format("reading '{}'", path.string()), "use a machine with more memory");
+                       fmt::format("reading '{}'", path.generic_string()), "use a machine with more memory");
     Bytes bytes = resolve_with_tinygltf(buffer, uri, {path, length});
     // A file longer than the buffer is not read to its end.
     const bool whole = !ignored && size == bytes.size();
@@ -245,7 +245,7 @@ std::optional<fs::path> decoded_path(std::string_view uri) {
     if (text.empty() || text.find('\0') != std::string::npos || text.find('\\') != std::string::npos)
         return std::nullopt;
     const fs::path path = fs::path(text).lexically_normal();
-    if (path.is_absolute() || path == "." || !path.has_filename()) return std::nullopt;
+    if (path.has_root_path() || path == "." || !path.has_filename()) return std::nullopt;
     return path;
 }
 

@@ -67,7 +67,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog&) {
     scene.unit = settings.unit.value_or(Unit::unknown);
     scene.up = settings.up.value_or(UpAxis::unknown);
     Part part;
-    part.name = std::filesystem::path(input.name()).stem().string();
+    part.name = std::filesystem::path(input.name()).stem().generic_string();
     try {
         DracoMesh decoded = decode_draco(input.bytes(), DracoContents::mesh_or_points, settings.decoded);
         if (decoded.points > settings.max_vertices)

@@ -63,7 +63,7 @@ std::string embedded_fault(Patch& patch, const JsonCursor& image) {
 /// Uses the name of the image's file as its name.
 void keep_name(Json& json, const std::string& uri) {
     const auto path = decoded_path(uri);
-    if (!json.contains("name") && path) json["name"] = path->stem().string();
+    if (!json.contains("name") && path) json["name"] = path->stem().generic_string();
 }
 
 /// Places embedded and copied images; equal bytes are stored once.
