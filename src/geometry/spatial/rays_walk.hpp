@@ -152,7 +152,7 @@ class LineQuery {
     }
 
   private:
-    Float4 low_[3], high_[3], inverse_[3];
+    Float4 low_[3] = {}, high_[3] = {}, inverse_[3] = {};
     bool forward_[3] = {};
     double begin_ = 0, longest_ = 1;
     float length_ = 0;
