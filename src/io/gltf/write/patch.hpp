@@ -97,6 +97,9 @@ void drop_dead_meshes(Patch& patch, const PartMeshes& meshes);
 /// largest instance.
 void store_streams(Patch& patch, const StoredMeshes& meshes);
 
+/// Without meshopt, stores morph targets as sparse accessors where that is smaller.
+void store_sparse_targets(Patch& patch, const StoredMeshes& meshes);
+
 /// If requested, interleaves the attributes of each primitive in a view, or in several views beyond 252
 /// bytes per vertex. Primitives that share an attribute share the view. Morph targets, sparse attributes and
 /// Draco's attributes stay unchanged.
