@@ -10,7 +10,7 @@ inline constexpr const char* details =
 These are images and accessors with equal bytes, equal samplers, textures and materials, exactly
 equal meshes, and vertices with equal positions and attributes.
 
-The option join merges parts with the same materials and attributes into the first of them.
+The option join merges parts that share a material and have the same attributes into the first of them.
 It also merges primitives with the same material.
 
 The option prune removes unused materials, textures, samplers, images, meshes and accessors.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace facetmill::optimize_stage {
@@ -22,21 +23,24 @@ std::vector<char> used_primitives(const Mesh& mesh) {
     return used;
 }
 
-/// The key that two meshes must share to be merged: materials and kinds of attributes. Empty for meshes
-/// whose primitives have further data.
-std::string kind_of(const Mesh& mesh) {
+std::set<Index> materials_of(const Mesh& mesh) {
     std::set<Index> materials;
-    for (const Primitive& p : mesh.primitives) {
-        if (!p.json.empty()) return "";
-        materials.insert(p.material);
-    }
+    for (const Primitive& p : mesh.primitives) materials.insert(p.material);
     if (materials.empty()) materials.insert(none);
+    return materials;
+}
+
+/// The key that two meshes must share to be merged: the kinds of their attributes. Empty for meshes whose
+/// primitives have further data.
+std::string kind_of(const Mesh& mesh) {
+    for (const Primitive& p : mesh.primitives)
+        if (!p.json.empty()) return "";
     std::set<std::string> attributes; // the attributes in any order
     for (const Attribute& a : mesh.attributes)
         if (a.name != primitive_attribute)
             attributes.insert(fmt::format("{} {} {} {} {} {}", a.name, int(a.domain), int(a.role),
                                           a.components, a.normalised, a.data.index()));
-    return fmt::format("{} | {}", fmt::join(materials, " "), fmt::join(attributes, ", "));
+    return fmt::format("attributes: {}", fmt::join(attributes, ", "));
 }
 
 /// The scale of a transform along all directions, to a millionth. Equal keys keep lengths equal.
@@ -76,21 +80,33 @@ bool join_primitives(Mesh& mesh) {
 }
 
 std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<std::size_t>& candidates) {
-    std::map<std::string, JoinedParts> by_kind;
+    std::map<std::string, std::size_t> part_with; // the first part with this kind and material
+    std::vector<std::size_t> first(scene.parts.size());
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    const auto first_of = [&](std::size_t i) {
+        while (first[i] != i) i = first[i] = first[first[i]];
+        return i;
+    };
     const auto thick = io::thicknesses(scene);
     for (const std::size_t i : candidates) {
         std::string kind = kind_of(scene.parts[i].mesh);
         if (kind.empty()) continue;
         if (!thick[i].empty()) kind += scale_key(scene.parts[i].transform);
-        const auto [group, first] = by_kind.try_emplace(kind, JoinedParts{i, {}});
-        if (!first) group->second.others.push_back(i);
+        for (const Index material : materials_of(scene.parts[i].mesh)) {
+            const std::size_t with =
+                part_with.try_emplace(fmt::format("{} {}", kind, material), i).first->second;
+            const std::size_t a = first_of(with), b = first_of(i);
+            first[std::max(a, b)] = std::min(a, b);
+        }
     }
-    std::vector<JoinedParts> groups;
-    for (auto& [kind, group] : by_kind)
-        if (!group.others.empty()) groups.push_back(std::move(group));
-    std::sort(groups.begin(), groups.end(),
-              [](const JoinedParts& a, const JoinedParts& b) { return a.first < b.first; });
-    return groups;
+    std::map<std::size_t, JoinedParts> groups; // by first part
+    for (const std::size_t i : candidates)
+        if (const std::size_t f = first_of(i); f != i)
+            groups.try_emplace(f, JoinedParts{f, {}}).first->second.others.push_back(i);
+    std::vector<JoinedParts> all;
+    all.reserve(groups.size());
+    for (auto& [f, group] : groups) all.push_back(std::move(group));
+    return all;
 }
 
 std::vector<JoinedParts>
@@ -99,6 +115,8 @@ groups_standing_together(const Scene& scene, const std::vector<std::vector<std::
     for (const std::vector<std::size_t>& parts : parts_of_meshes) {
         std::string kind = kind_of(scene.parts[parts.front()].mesh);
         if (kind.empty()) continue;
+        for (const Index material : materials_of(scene.parts[parts.front()].mesh))
+            kind += fmt::format(" {}", material);
         for (const std::size_t i : parts)
             for (const auto& row : scene.parts[i].transform.m)
                 for (const double x : row) kind += fmt::format(" {}", x);

@@ -47,7 +47,7 @@ void declare(Declare<OptimizeOptions>& d) {
     d.option("instance_min", &OptimizeOptions::instance_min,
              "The minimum number of parts with the same mesh that become instances.")
         .between(2, 65536);
-    d.option("join", &OptimizeOptions::join, "Joins parts that have the same materials.");
+    d.option("join", &OptimizeOptions::join, "Joins parts that share a material.");
     d.option("join_shared", &OptimizeOptions::join_shared,
              "Also joins parts that share their mesh with others: fewer draw calls, but more bytes.");
     d.option("prune", &OptimizeOptions::prune, "Removes unused items.");
