@@ -1,4 +1,5 @@
 #include "io/gltf/contents/textures.hpp"
+#include "io/images/avif.hpp"
 #include "io/images/encode_image.hpp"
 #include "io/images/image_files.hpp"
 #include "io/images/png.hpp"
@@ -130,6 +131,24 @@ TEST_CASE("an image for readers without WebP is scaled and stays what it is", "[
     const Json json = document_again(run.scene);
     CHECK(json["textures"][0]["source"] == 0);
     CHECK_FALSE(json.contains("extensionsRequired"));
+}
+
+TEST_CASE("textures writes AVIF as EXT_texture_avif asks, or says that it cannot", "[stages]") {
+    const Scene scene = textured({io::encoded_png(picture(64, 64))}, coloured);
+    if (!io::has_avif()) {
+        CHECK(problems_of("textures", options({{"format", "avif"}})).starts_with("E-AVIF "));
+        return;
+    }
+    const auto run = run_stage("textures", "{format: avif}", scene);
+    const Json json = document_again(run.scene);
+    CHECK(json["textures"][0] == Json::parse(R"({"extensions":{"EXT_texture_avif":{"source":0}}})"));
+    CHECK(json["images"][0]["mimeType"] == "image/avif");
+    CHECK(json["extensionsRequired"] == Json::array({"EXT_texture_avif"}));
+    CHECK(image_result(run, 0)["after"]["format"] == "avif");
+    CHECK(image_result(run, 0)["after"]["width"] == 64);
+
+    const auto back = run_stage("textures", "{format: png}", run.scene);
+    CHECK(document_again(back.scene)["textures"][0] == Json::parse(R"({"source":0})"));
 }
 
 TEST_CASE("alpha that is used never becomes JPEG", "[stages]") {
