@@ -336,9 +336,10 @@ void check_results(const BatchOptions& options, const CommandLine& line, Problem
         problems.add(line.value(options.archive_out), "E-FORMAT",
                      fmt::format("--archive-out writes .tar or .zip, found '{}'", options.archive_out),
                      "use a name that ends in .tar or .zip");
-    if (!(options.overhang_angle <= 90))
-        problems.add(line.find("--overhang-angle"), "E-RANGE",
-                     fmt::format("--overhang-angle is at most 90 degrees, found {}", options.overhang_angle));
+    if (!(options.overhang_angle >= 0 && options.overhang_angle <= 90))
+        problems.add(
+            line.find("--overhang-angle"), "E-RANGE",
+            fmt::format("--overhang-angle is between 0 and 90 degrees, found {}", options.overhang_angle));
 }
 
 /// Removes the unpacked files of archives at the end. After a signal they stay until the next batch.
