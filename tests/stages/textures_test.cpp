@@ -248,7 +248,7 @@ TEST_CASE("textures refuses options that say nothing", "[stages]") {
     CHECK(problems_of("textures", options({{"max_size", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"quality", "101"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"lossless", "true"}, {"format", "jpeg"}})) ==
-          "E-CONFLICT textures: 'lossless' needs format: webp | use format: webp, or remove it");
+          "E-CONFLICT textures: 'lossless' needs format: webp or avif | use format: webp, or remove it");
     const auto run = run_stage("textures", "16", scene_of(Mesh{}));
     CHECK(run.record.result["images"].empty());
 }
