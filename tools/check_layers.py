@@ -84,6 +84,7 @@ LIBRARIES = {
     "png.h": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
     "jpeglib.h": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
     "webp": ["src/io/images/pixels.cpp", "src/io/images/encode_image.cpp"],
+    "avif": ["src/io/images/avif.cpp"],
 }
 
 # Libraries that are met anywhere.

@@ -13,6 +13,8 @@ tools="g++ cmake ninja-build mold pkg-config"
 libraries="libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
     libcli11-dev libfmt-dev libgmp-dev libtbb-dev libeigen3-dev libopenmesh-dev nettle-dev zlib1g-dev libzstd-dev libexpat1-dev
     libseccomp-dev libpng-dev libjpeg-dev libwebp-dev"
+# Optional: AVIF images. Static executables go without.
+avif="libavif-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
 fuzz="clang libclang-rt-dev"
@@ -24,7 +26,7 @@ site="mkdocs mkdocs-material python3-yaml"
 browser="chromium"
 optional="ccache python3-yaml zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
 
-list=no wanted="$tools $libraries $test"
+list=no wanted="$tools $libraries $avif $test"
 for argument in "$@"; do
     case $argument in
     --list) list=yes ;;

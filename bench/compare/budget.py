@@ -113,10 +113,10 @@ class Comparison:
                   "--output-dir", out, *(word for k, v in limits.items() for word in ("-D", f"{k}={v}")))
         return file if file.exists() else None
 
-    def as_alike(self, asset, rms):
-        """The smallest file found that the judge finds as much alike: its bytes."""
-        look, best = rms, None
-        for _ in range(3):
+    def as_alike(self, asset, rms, best=None):
+        """The smallest file found that the judge finds as much alike: its bytes. best: of a known one."""
+        look = rms
+        for _ in range(4):
             file = self.fitted(asset, "look", look=f"{look:.4f}%")
             found = file and self.judged(asset, file)
             if not found:
@@ -150,7 +150,8 @@ def main():
             if own and own.stat().st_size > size:
                 raise SystemExit(f"{asset}: {own.stat().st_size} bytes for a budget of {size}")
             found = own and work.judged(asset, own)
-            alike = None if options.no_look or not judged else work.as_alike(asset, judged[0])
+            known = own.stat().st_size if found and judged and found[0] <= judged[0] else None
+            alike = None if options.no_look or not judged else work.as_alike(asset, judged[0], known)
             rows.append((peer, judged, found, alike and alike / size))
             cells = [asset.stem, peer, f"{size:,}"]
             for i, digits in ((0, 2), (1, 4)):

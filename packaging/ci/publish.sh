@@ -1,5 +1,6 @@
 #!/bin/sh
-# publish.sh FOLDER BRANCH NAME: puts the PNG and HTML files of FOLDER into the folder NAME of the orphan branch BRANCH.
+# publish.sh FOLDER BRANCH NAME: puts the files of FOLDER into the folder NAME of the orphan branch BRANCH. Hidden files
+# stay out.
 set -eu
 folder=$(cd "$1" && pwd) branch=$2 name=$3
 tree=$(mktemp -d)
@@ -12,7 +13,7 @@ else
     git -C "$tree/tree" rm -rqf .
 fi
 mkdir -p "$tree/tree/$name"
-(cd "$folder" && find . -type f \( -name '*.png' -o -name '*.html' \) -exec cp --parents {} "$tree/tree/$name" \;)
+(cd "$folder" && find . -type f ! -path '*/.*' -exec cp --parents {} "$tree/tree/$name" \;)
 cd "$tree/tree"
 git add -A
 git -c user.name=facetmill -c user.email=facetmill@localhost commit -qm "review: Add the pictures of run $name" || exit 0

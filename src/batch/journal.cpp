@@ -73,7 +73,8 @@ Json done_json(const Done& done) {
                  {"former", done.former},
                  {"written", done.written},
                  {"warnings", done.warnings},
-                 {"picture", done.picture}};
+                 {"picture", done.picture},
+                 {"pictured", done.pictured}};
     for (const Column& column : columns())
         if (!column.of_model || done.figures.model.measured())
             if (const auto value = column.value(done.figures)) json[column.key] = *value;
@@ -108,6 +109,7 @@ Done done_from(const Json& json) {
     json.at("written").get_to(done.written);
     json.at("warnings").get_to(done.warnings);
     json.at("picture").get_to(done.picture);
+    done.pictured = json.value("pictured", !done.picture.empty());
     return done;
 }
 

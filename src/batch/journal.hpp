@@ -41,6 +41,7 @@ struct Done {
     std::vector<std::string> written;                          ///< outputs without reports, for the summary
     std::vector<std::pair<std::string, std::string>> warnings; ///< ids and messages
     std::string picture;
+    bool pictured = false; ///< the batch made pictures; a scene without surface has none
 };
 
 /// The current size and time of a file, without digest. Omits a time so recent that a later change could keep

@@ -360,7 +360,8 @@ class BatchRun {
             const Done* done = journal_.unchanged(works_[i].asset.name, works_[i].digest);
             const bool lacks_measures =
                 done && settings_.model_row && done->measured != how_measured(settings_);
-            kept[i] = lacks_measures ? nullptr : done;
+            const bool lacks_picture = done && settings_.pictures && !done->pictured;
+            kept[i] = lacks_measures || lacks_picture ? nullptr : done;
         };
         if (tokens_) // there is only one thread so far
             for (std::size_t i = 0; i < works_.size(); ++i) look(i);
@@ -426,10 +427,12 @@ class BatchRun {
         if (settings_.pictures) add_draw_costs(out.files, settings_.output_dir);
         out.warnings = std::move(warnings);
         for (const auto& error : record.errors) out.errors.push_back(about_asset(work.asset, error));
-        if (record.exit_code == 0)
+        if (record.exit_code == 0) {
             done = done_of(work, before, record, out, settings_.output_dir, how_measured(settings_));
-        else if (!record.reports.empty())
+            done->pictured = settings_.pictures;
+        } else if (!record.reports.empty()) {
             done = reports_of_failed(work, record);
+        }
         return out;
     }
 

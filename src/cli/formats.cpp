@@ -3,6 +3,7 @@
 #include "base/json.hpp"
 #include "cli/command.hpp"
 #include "io/codec.hpp"
+#include "io/images/avif.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -87,6 +88,7 @@ int list_formats(bool json) {
                             fmt::join(c.extensions, " ."), c.about, "", abilities_text(c));
         if (c.read && !c.reads()) text += fmt::format("{:<26}{}\n", "", c.missing());
     }
+    if (!io::has_avif()) text += "AVIF images: not in this build, which has no libavif\n";
     print(json ? all.dump(2) + "\n" : text);
     return 0;
 }

@@ -5,6 +5,7 @@
 #include "docs/ready.hpp"
 #include "docs/stages.hpp"
 #include "docs/versions.hpp"
+#include "io/images/avif.hpp"
 #include "platform/sandbox.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
@@ -34,6 +35,7 @@ std::string version_text(bool json) {
                 {"version", docs::release()},
                 {"format", 1},
                 {"libraries", libraries},
+                {"optional", {{"avif", io::has_avif()}}},
                 {"sandbox", {{"landlock", here.files}, {"seccomp", here.calls}}}};
     if (here.mitigations) all["sandbox"]["mitigations"] = true;
     for (const auto& source : docs::linked_sources())

@@ -54,7 +54,7 @@ const std::vector<OtherFormat>& other_formats() {
          "convert it to .ply, with MeshLab",
          "write .ply"},
         {{"zip", "7z", "rar", "tar", "tgz"}, "an archive", "unpack it and give the mesh in it", ""},
-        {{"jpg", "jpeg", "png", "tif", "tiff", "webp", "gif", "bmp", "pdf"},
+        {{"jpg", "jpeg", "png", "tif", "tiff", "webp", "avif", "gif", "bmp", "pdf"},
          "a picture, not a mesh",
          "give the mesh that it shows",
          "render makes pictures, as .png"},

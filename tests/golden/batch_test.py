@@ -107,6 +107,18 @@ class Batch(Case):
         self.batch(*reports, expect=6)
         self.assertEqual(self.written(), first)
 
+    def test_pictures_of_what_was_kept(self):
+        """A batch that wants pictures runs assets again that were done without."""
+        self.assertEqual(len(self.done_anew()), 3)
+        pictured = ("--report", "review.md", "--pictures", "png", "--link-base", "https://ci.example/7")
+        for anew in (3, 0):
+            self.assertEqual(len(self.done_anew(*pictured)), anew)
+            text = (self.dir / "out/review.md").read_text()
+            pictures = [p.relative_to(self.dir / "out") for p in (self.dir / "out/png").rglob("*.png")]
+            self.assertEqual(len(pictures), 3)
+            for picture in pictures:
+                self.assertIn(f"](https://ci.example/7/{picture})", text)
+
     def test_kill_and_resume(self):
         self.write("t.csv", "input,n\nin/a.off,1\nin/sub/b.off,1\n" + f"{SCAN},100000\n")
         run = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1"], cwd=self.dir,

@@ -303,6 +303,14 @@ class Language(Case):
         self.assertIn("simplify", hints["faces"])
 
     @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_each_can_be_included_by_name(self):
+        for pipeline in PIPELINES:
+            with self.subTest(pipeline=pipeline.name):
+                self.write("mine.yaml", f"facetmill: 1\nallow: W-UNITS\nstages:\n  - include: {pipeline.stem}\n"
+                                        f"    with: {{input: '{SCAN}'}}\n  - measure\n")
+                if "\n  input:" in pipeline.read_text():
+                    self.mill("plan", "mine.yaml")
+
     def test_diff_follows_its_schema(self):
         schema = json.loads(self.mill("schema", "diff").stdout)
         self.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")

@@ -55,7 +55,22 @@ TEXTURED = {
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
                  + base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()}]}
 
+# A triangle that stays, and one that moves along a line in three keys, of which two are enough.
+MOVING = {
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "animations": [{"samplers": [{"input": 1, "output": 2}],
+                    "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [2]},
+                  {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12},
+                    {"buffer": 0, "byteOffset": 48, "byteLength": 36}],
+    "buffers": [{"byteLength": 84, "uri": "data:application/octet-stream;base64,"
+                 + base64.b64encode(struct.pack("<21f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 0, 1, 0, 0, 2, 0, 0)).decode()}]}
+
 RUNS = [
+    "load moving.gltf ! optimize --max_motion 1% --resample 2 ! merge",
     "load cubes.obj ! thicken 0.1 ! section z=0.5",
     "load crossed.off ! section z=0.5",
     "load cubes.obj --unit mm --up z ! write o.3mf --origin 1,2,3",
@@ -91,7 +106,7 @@ RUNS = [
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
     "load cubes.obj ! optimize",
     "load cubes.obj ! normals --with open.off ! remesh 0.3",
-    "load cubes.obj ! clean --hidden --smaller_than 1",
+    "load cubes.obj ! clean --hidden --components.min_size 1",
     "load open.off ! align cubes.obj ! transfer cubes.obj",
     "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
     "generate torus ! wrap 10%",
@@ -128,6 +143,7 @@ class Results(Case):
         self.write("hourglass.off", HOURGLASS)
         self.write("crossed.off", CROSSED)
         self.write("textured.gltf", json.dumps(TEXTURED))
+        self.write("moving.gltf", json.dumps(MOVING))
         for file in (SOURCE / "tests/data/morph-cube").iterdir():
             shutil.copy(file, self.dir)
         # The same triangle with texture coordinates, a normal map and larger images, which fit makes smaller.

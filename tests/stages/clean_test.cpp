@@ -148,7 +148,7 @@ TEST_CASE("clean: small components and hidden faces are removed, with their area
     Mesh cube = shapes::cube();
     for (Vec3& p : cube.positions) p = p * 0.1;
     append(mesh, cube);
-    const auto small = run_stage("clean", options({{"smaller_than", "0.5"}}), scene_of(mesh));
+    const auto small = run_stage("clean", "{components: {min_size: 0.5}}", scene_of(mesh));
     const auto& part = small.record.result["parts"][0];
     CHECK(part["removed_components"] == 1);
     CHECK(part["component_faces"] == 12);

@@ -1,4 +1,5 @@
 #include "support/catch.hpp"
+#include "support/gltf.hpp"
 #include "support/meshes.hpp"
 #include "support/run_stage.hpp"
 
@@ -62,4 +63,23 @@ TEST_CASE("merge leaves no joints without a skin", "[stages]") {
     CHECK(merged.warnings() == std::vector<std::string>{"W-SKIN"});
     CHECK(merged.scene.parts[0].mesh.find("JOINTS_0", Domain::wedge) == nullptr);
     CHECK(merged.scene.parts[0].mesh.find("WEIGHTS_0", Domain::wedge) == nullptr);
+}
+
+TEST_CASE("merge reports the parts that it leaves, and why", "[stages]") {
+    const Scene scene = test::read_text(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+"nodes":[{"mesh":0,"name":"still"},{"mesh":0,"name":"moving"},{"mesh":0,"name":"other"},{"mesh":0,"name":"unseen"}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":52,"byteLength":8}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":0,"componentType":5126,"count":2,"type":"VEC3"}],
+"animations":[{"samplers":[{"input":1,"output":2}],"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}}]}]})");
+    const auto run = run_stage("merge", "", scene);
+    CHECK(run.record.result["merged"] == Json::array({"still", "other"}));
+    REQUIRE(run.record.result["staying"].size() == 2);
+    CHECK(run.record.result["staying"][0]["reason"] == "animated");
+    CHECK(run.record.result["staying"][0]["parts"] == Json::array({"moving"}));
+    CHECK(run.record.result["staying"][1]["reason"] == "hidden");
+    CHECK(run.record.result["staying"][1]["parts"] == Json::array({"unseen"}));
 }

@@ -123,6 +123,32 @@ TEST_CASE("parts that share some materials become one, with a primitive for each
     CHECK(drawn_in_world(again(run.scene)) == drawn_in_world(scene));
 }
 
+TEST_CASE("parts that share one of several materials are joined, others are not", "[stages]") {
+    const auto primitive = [](int material, int position) {
+        return fmt::format(R"({{"attributes":{{"POSITION":{},"TEXCOORD_0":1}},"material":{}}})", position,
+                           material);
+    };
+    const auto of = [](const std::string& primitives) { return R"({"primitives":[)" + primitives + "]}"; };
+    Scene scene = document(
+        R"({"mesh":0,"name":"a"},{"mesh":1,"name":"b","translation":[5,0,0]},{"mesh":2,"name":"c"},
+{"mesh":3,"name":"d","translation":[0,0,3]})",
+        of(primitive(0, 0)) + "," + of(primitive(0, 2) + "," + primitive(1, 0)) + "," + of(primitive(2, 2)) +
+            "," + of(primitive(1, 0)),
+        R"("materials":[)" + colour("red", 1) + "," + colour("dark", 0.1) + "," + colour("black", 0) + "]");
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) { // else some would share a mesh
+        scene.parts[i].mesh.positions[0].z = 0.1 * static_cast<double>(i + 1);
+        scene.parts[i].changed = true;
+    }
+    const auto run = run_stage("optimize", "{}", scene);
+    REQUIRE(run.scene.parts.size() == 2);
+    CHECK(run.record.result["joined"] == Json::array({"a"}));
+    CHECK(run.record.result["joined_parts"] == 2);
+    CHECK(run.record.result["draw_calls_before"] == 5);
+    CHECK(run.record.result["draw_calls_after"] == 3);
+    CHECK(drawn_in_world(run.scene) == drawn_in_world(scene));
+    CHECK(drawn_in_world(again(run.scene)) == drawn_in_world(scene));
+}
+
 TEST_CASE("meshes that are equal to the bit become one, which stays shared", "[stages]") {
     const auto run =
         run_stage("optimize", "{}",

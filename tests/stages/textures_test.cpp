@@ -1,4 +1,5 @@
 #include "io/gltf/contents/textures.hpp"
+#include "io/images/avif.hpp"
 #include "io/images/encode_image.hpp"
 #include "io/images/image_files.hpp"
 #include "io/images/png.hpp"
@@ -132,6 +133,24 @@ TEST_CASE("an image for readers without WebP is scaled and stays what it is", "[
     CHECK_FALSE(json.contains("extensionsRequired"));
 }
 
+TEST_CASE("textures writes AVIF as EXT_texture_avif asks, or says that it cannot", "[stages]") {
+    const Scene scene = textured({io::encoded_png(picture(64, 64))}, coloured);
+    if (!io::has_avif()) {
+        CHECK(problems_of("textures", options({{"format", "avif"}})).starts_with("E-AVIF "));
+        return;
+    }
+    const auto run = run_stage("textures", "{format: avif}", scene);
+    const Json json = document_again(run.scene);
+    CHECK(json["textures"][0] == Json::parse(R"({"extensions":{"EXT_texture_avif":{"source":0}}})"));
+    CHECK(json["images"][0]["mimeType"] == "image/avif");
+    CHECK(json["extensionsRequired"] == Json::array({"EXT_texture_avif"}));
+    CHECK(image_result(run, 0)["after"]["format"] == "avif");
+    CHECK(image_result(run, 0)["after"]["width"] == 64);
+
+    const auto back = run_stage("textures", "{format: png}", run.scene);
+    CHECK(document_again(back.scene)["textures"][0] == Json::parse(R"({"source":0})"));
+}
+
 TEST_CASE("alpha that is used never becomes JPEG", "[stages]") {
     const io::Bytes leaf = io::encoded_png(picture(64, 64, true));
     const auto kept = run_stage("textures", "{format: jpeg}", textured({leaf, leaf, leaf}, every_role));
@@ -229,7 +248,7 @@ TEST_CASE("textures refuses options that say nothing", "[stages]") {
     CHECK(problems_of("textures", options({{"max_size", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"quality", "101"}})).starts_with("E-RANGE"));
     CHECK(problems_of("textures", options({{"lossless", "true"}, {"format", "jpeg"}})) ==
-          "E-CONFLICT textures: 'lossless' needs format: webp | use format: webp, or remove it");
+          "E-CONFLICT textures: 'lossless' needs format: webp or avif | use format: webp, or remove it");
     const auto run = run_stage("textures", "16", scene_of(Mesh{}));
     CHECK(run.record.result["images"].empty());
 }

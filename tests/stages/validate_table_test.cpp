@@ -200,6 +200,7 @@ std::vector<Row> shapes_and_attributes() {
             {"nonplanarity: {max: 0.1}", scene_of(warped_quad()), scene_of(quad_cube())},
             {"wall_thickness: {min: 0.5}", scene_of(small), scene_of(cube())},
             {"gap: {min: 0.5}", scene_of(two_cubes(0.25)), scene_of(two_cubes(0.75))},
+            {"detail: {min: 0.5}", scene_of(two_cubes(0.25)), scene_of(two_cubes(0.75))},
             {"component_size: {min: 0.5}", scene_of(small), scene_of(cube())},
             {"uvs_in_range: true", scene_of(with_value("TEXCOORD_0", 3, 0, 1.5)), scene_of(uv_cube())},
             {"uv_overlaps: 0", scene_of(uv_cube()), scene_of(mapped_grid())},

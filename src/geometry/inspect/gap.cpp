@@ -30,6 +30,18 @@ std::optional<double> smallest_gap(const Measured& mesh) {
     return thinnest_wall({turned, turned, mesh.properties, mesh.settings});
 }
 
+std::vector<double> details(const Mesh& mesh) {
+    std::vector<double> all = wall_thicknesses(mesh);
+    const std::vector<double> of_air = gaps(mesh);
+    for (std::size_t f = 0; f < all.size(); ++f) all[f] = std::min(all[f], of_air[f]);
+    return all;
+}
+
+std::optional<double> smallest_detail(const Measured& mesh) {
+    const std::optional<double> wall = thinnest_wall(mesh), gap = smallest_gap(mesh);
+    return wall && gap ? std::min(*wall, *gap) : wall ? wall : gap;
+}
+
 std::vector<double> component_sizes(const Mesh& mesh) {
     const Components components = face_components(mesh);
     std::vector<Box> boxes(components.count);
@@ -37,7 +49,7 @@ std::vector<double> component_sizes(const Mesh& mesh) {
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
             boxes[components.of_face[f]].add(mesh.point(c));
     std::vector<double> sizes(mesh.face_count());
-    for (Index f = 0; f < mesh.face_count(); ++f) sizes[f] = boxes[components.of_face[f]].longest_side();
+    for (Index f = 0; f < mesh.face_count(); ++f) sizes[f] = boxes[components.of_face[f]].diagonal();
     return sizes;
 }
 

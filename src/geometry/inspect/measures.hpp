@@ -31,6 +31,10 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 // In gap.cpp:
 /// [faces] Like wall_thicknesses, through the air in front of the faces.
 [[nodiscard]] std::vector<double> gaps(const Mesh& mesh);
+/// By face: the smaller of the wall thickness and the gap.
+[[nodiscard]] std::vector<double> details(const Mesh& mesh);
+/// The least of details.
+[[nodiscard]] std::optional<double> smallest_detail(const Measured& mesh);
 /// The least of gaps.
 [[nodiscard]] std::optional<double> smallest_gap(const Measured& mesh);
 /// [faces] The longest side of the box around the component of the face.

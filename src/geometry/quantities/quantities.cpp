@@ -69,6 +69,7 @@ const std::vector<OfProperty>& of_properties() {
         {"min_angle", "", {"smallest_angle", "minimum_angle"}},
         {"max_angle", "", {"largest_angle", "maximum_angle"}},
         {"aspect_ratio", "for faces without area", {"aspect"}},
+        {"detail", "if no face is in front of or behind the face", {"feature_size"}},
         {"gap", "if no face is in front of the face", {"gap_width", "clearance"}},
         {"wall_thickness", "if no face is behind the face", {"thickness", "wall"}},
     };

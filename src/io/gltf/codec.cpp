@@ -535,6 +535,7 @@ Written write(const Scene& given, const WriteSettings& settings, bool binary) {
     steps.next();
     const StoredMeshes stored = store_meshes(patch, std::move(nodes));
     store_streams(patch, stored);
+    store_sparse_targets(patch, stored);
     interleave_attributes(patch, stored);
     steps.next();
     builder.compress(settings.meshopt);

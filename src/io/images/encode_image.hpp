@@ -8,9 +8,9 @@ namespace facetmill::io {
 /// Settings for encoding with loss.
 struct LossSettings {
     int quality = 80;        ///< 1 to 100, as in the libraries
-    bool lossless = false;   ///< WebP only
+    bool lossless = false;   ///< WebP and AVIF only
     bool as_numbers = false; ///< data instead of colours: no chroma subsampling (JPEG), or the best chroma
-                             ///< conversion (WebP)
+                             ///< conversion (WebP, AVIF)
 };
 
 /// A PNG with as few channels as the image needs. Throws a limit error (E-MEMORY), as all these functions

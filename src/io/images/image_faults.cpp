@@ -1,5 +1,6 @@
 #include "io/images/image_faults.hpp"
 
+#include "io/images/avif.hpp"
 #include "io/images/image_files.hpp"
 #include "io/images/pixels.hpp"
 
@@ -76,12 +77,15 @@ std::string image_fault(Span bytes) {
     if (bytes.empty()) return "it is empty";
     if (type.empty()) return "its kind is unknown";
     if (type == "image/ktx2") return ktx2_fault(bytes);
+    if (type == "image/avif" && !avif_ends(bytes)) return "its data end early";
+    if (type == "image/avif" && !has_avif()) return {};
     const auto size = type == "image/vnd-ms.dds" ? std::pair<std::size_t, std::size_t>{1, 1}
                                                  : image_size(bytes).value_or(std::pair(0, 0));
     if (size.first == 0 || size.second == 0) return "its header is broken";
     const bool ends = type == "image/png"    ? png_ends(bytes)
                       : type == "image/jpeg" ? jpeg_ends(bytes)
                       : type == "image/webp" ? webp_ends(bytes)
+                      : type == "image/avif" ? avif_ends(bytes)
                                              : bytes.size() >= dds_header;
     return ends ? std::string() : "its data end early";
 }

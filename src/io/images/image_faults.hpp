@@ -9,8 +9,8 @@
 namespace facetmill::io {
 
 /// The fault of an image file that can be found without decoding: "its header is broken", "its data end
-/// early", "it is of no known kind". Empty without a fault. Supports PNG, JPEG, WebP, KTX2 and DDS. Does not
-/// check the data between the header and the end.
+/// early", "it is of no known kind". Empty without a fault. Supports PNG, JPEG, WebP, AVIF, KTX2 and DDS.
+/// Does not check the data between the header and the end.
 [[nodiscard]] std::string image_fault(Span bytes);
 
 /// The warning (W-IMAGE) for such an image that is written unchanged.

@@ -3,6 +3,7 @@
 #include "base/hash.hpp"
 #include "base/text/markup.hpp"
 #include "base/text/spelling.hpp"
+#include "io/images/avif.hpp"
 #include "parallel/memory.hpp"
 #include "platform/file_names.hpp"
 
@@ -144,6 +145,7 @@ std::string media_type(Span bytes) {
     if (text.starts_with("\xff\xd8\xff")) return "image/jpeg";
     if (text.starts_with("RIFF") && text.substr(std::min<std::size_t>(text.size(), 8)).starts_with("WEBP"))
         return "image/webp";
+    if (is_avif(bytes)) return "image/avif";
     if (text.starts_with("\xabKTX 20\xbb\r\n\x1a\n")) return "image/ktx2";
     return text.starts_with("DDS ") ? "image/vnd-ms.dds" : "";
 }
@@ -177,6 +179,7 @@ bool has_bytes(const fs::path& path, Span bytes) {
 
 std::string suffix_of_image(const std::string& type) {
     return type == "image/webp"   ? ".webp"
+           : type == "image/avif" ? ".avif"
            : type == "image/ktx2" ? ".ktx2"
            : type == "image/jpeg" ? ".jpg"
                                   : ".png";

@@ -30,8 +30,8 @@ namespace facetmill::io {
                                               const std::string& name, const std::string& where,
                                               ReadLog& log);
 
-/// The media type by the first bytes: "image/png", "image/jpeg", "image/webp", "image/ktx2" or
-/// "image/vnd-ms.dds"; otherwise empty.
+/// The media type by the first bytes: "image/png", "image/jpeg", "image/webp", "image/avif", "image/ktx2"
+/// or "image/vnd-ms.dds"; otherwise empty.
 [[nodiscard]] std::string media_type(Span bytes);
 
 /// The colour channels of a PNG or JPEG, from its header.
@@ -41,7 +41,8 @@ struct ImageColours {
 /// None if the bytes are neither PNG nor JPEG, or end too early.
 [[nodiscard]] std::optional<ImageColours> image_colours(Span bytes);
 
-/// The file suffix for a media type ("image/png"); the PNG suffix for types other than JPEG, WebP and KTX2.
+/// The file suffix for a media type ("image/png"); the PNG suffix for types other than JPEG, WebP, AVIF and
+/// KTX2.
 [[nodiscard]] std::string suffix_of_image(const std::string& type);
 
 /// A file name for an embedded image of a document: its name, otherwise its number, with the suffix of its

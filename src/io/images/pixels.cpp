@@ -1,6 +1,7 @@
 #include "io/images/pixels.hpp"
 
 #include "base/math/vec.hpp"
+#include "io/images/avif.hpp"
 #include "io/images/image_files.hpp"
 #include "io/images/png.hpp"
 
@@ -166,6 +167,7 @@ std::optional<Pixels> read_image_file(Span bytes, bool header) {
     if (type == "image/png") return decoded_png(bytes, header);
     if (type == "image/jpeg") return decoded_jpeg(bytes, header);
     if (type == "image/webp") return decoded_webp(bytes, header);
+    if (type == "image/avif") return decoded_avif(bytes, header);
     return {};
 }
 

@@ -25,10 +25,10 @@ struct Pixels {
 /// The maximum number of pixels to decode.
 constexpr std::size_t max_pixels = std::size_t{1} << 26;
 
-/// Decodes a PNG, JPEG or WebP of at most max_pixels; none for other formats and broken files. Grey becomes
-/// three equal channels, missing alpha is opaque, and 16 bits are rounded to 8. Colours are the file's
-/// numbers, without gAMA and iCCP, as glTF requires. Also none for a JPEG of more than 500 scans, because
-/// each scan costs as much as a whole image.
+/// Decodes a PNG, JPEG, WebP or (with libavif) AVIF of at most max_pixels; none for other formats and broken
+/// files. Grey becomes three equal channels, missing alpha is opaque, and 16 bits are rounded to 8. Colours
+/// are the file's numbers, without gAMA and iCCP, as glTF requires. Also none for a JPEG of more than 500
+/// scans, because each scan costs as much as a whole image.
 [[nodiscard]] std::optional<Pixels> decoded_image(Span bytes);
 
 /// The width and height of such an image. Reads only the header; none if the header is broken.

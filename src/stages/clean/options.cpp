@@ -52,11 +52,8 @@ void declare_removal(Declare<CleanOptions>& d) {
     d.group("components", &CleanOptions::components, "Removes small components. By default, all are kept.",
             declare_components)
         .also_called(property_named("components")->also_called)
-        .also_called("keep_largest largest largest_component", "components: {keep: 1}");
-    d.option("smaller_than", &CleanOptions::smaller_than,
-             "Removes components whose bounding box has a shorter diagonal, for example 2mm.")
-        .also_called("min_size small tiny remove_small", "smaller_than: 2mm")
-        .above(0);
+        .also_called("keep_largest largest largest_component", "components: {keep: 1}")
+        .also_called("smaller_than min_size small tiny remove_small", "components: {min_size: 2mm}");
     d.option("hidden", &CleanOptions::hidden,
              "Removes faces that no ray from outside reaches, because parts of the scene hide them.")
         .also_called("remove_hidden invisible remove_invisible interior remove_interior occluded");
@@ -175,7 +172,6 @@ CleanSettings clean_steps_of(const CleanOptions& o) {
             ComponentSettings{.min_faces = static_cast<std::size_t>(o.components->min_faces),
                               .min_area = o.components->min_area ? o.components->min_area->value : 0,
                               .keep = static_cast<std::size_t>(o.components->keep)};
-    if (o.smaller_than && !s.components) s.components.emplace();
     return s;
 }
 
@@ -188,8 +184,6 @@ CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Pa
     s.tolerance = local(o.tolerance, "tolerance");
     if (o.holes) s.holes->max_length = local(o.holes->max_length, "holes.max_length");
     if (o.components) s.components->min_size = local(o.components->min_size, "components.min_size");
-    if (o.smaller_than)
-        s.components->min_size = std::max(s.components->min_size, local(o.smaller_than, "smaller_than"));
     return s;
 }
 

@@ -28,14 +28,11 @@ struct CleanOptions {
     bool single = false, apart = true, unit_vectors = false;
     std::optional<CleanHoleOptions> holes;
     std::optional<CleanComponentOptions> components;
-    std::optional<Length> smaller_than;
     bool hidden = false;
     std::optional<Length> gap; ///< of hidden
 
     /// Whether components may vanish on purpose.
-    bool removes_components() const {
-        return components || inner_components || open_components || smaller_than || hidden;
-    }
+    bool removes_components() const { return components || inner_components || open_components || hidden; }
 };
 
 void declare_clean(Declare<CleanOptions>& d);

@@ -49,7 +49,7 @@ struct CleanStage : StageOf<run> {
     void verify(const Value& given, Problems& problems) const override { verify_clean(o, given, problems); }
     /// Removing components loses area on purpose. A union removes the overlap of solids.
     MayLose may_lose() const override {
-        if (o.smaller_than || o.hidden) return MayLose::all;
+        if (o.hidden) return MayLose::all;
         if (o.removes_components()) return MayLose::area;
         const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
         return unites ? MayLose::half : MayLose::tenth;
@@ -90,7 +90,7 @@ const RegisterStage registered = make_stage<CleanStage>(
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",
                   "clean: {self_intersections: union}", "clean: {weld: near, stitch: near, tolerance: 0.01%}",
                   "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}",
-                  "clean: {smaller_than: 2mm, hidden: true}"},
+                  "clean: {components: {min_size: 2mm}, hidden: true}"},
      .lines = LinesPolicy::pass,
      .crossing_faces = CrossingFacePolicy::fill},
     declare_clean, declare_clean_report);

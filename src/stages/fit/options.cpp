@@ -1,5 +1,6 @@
 #include "stages/fit/options.hpp"
 
+#include "io/images/avif.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/synonyms.hpp"
 
@@ -60,6 +61,7 @@ void declare_fit(Declare<FitOptions>& d) {
         "How the meshes are compressed. none also keeps all bits of positions and normals.");
     std::vector<NamedChoice<std::string>> formats = {
         {"webp", "webp", "WebP, with EXT_texture_webp"},
+        {"avif", "avif", "AVIF, with EXT_texture_avif; needs a build with libavif, and is slow"},
         {"jpeg", "jpeg", "JPEG; images whose alpha is used keep their format"},
         {"png", "png", "PNG, lossless"},
         {"keep", "keep", "the current format of each image"}};
@@ -81,6 +83,8 @@ void verify_fit(const FitOptions& o, const Value& given, Problems& problems) {
         const Value* value = given.is_map() ? given.find(option) : nullptr;
         return value && value->deferred;
     };
+    if (o.images == "avif" && !io::has_avif())
+        refuse("images", "AVIF needs libavif, which this build lacks", "use images: webp", "E-AVIF");
     // `off` may come from params of a pipeline whose condition then skips the stage.
     const bool names_one = given.is_map() && (given.find("budget") || given.find("look"));
     if (!o.budget && !o.look && !names_one)

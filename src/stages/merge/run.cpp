@@ -37,10 +37,17 @@ void declare(Declare<MergeOptions>& d) {
         "The attributes of the joined part.");
 }
 
+/// Parts that stay because merging would change what viewers show of them.
+struct StayingParts {
+    std::string reason;
+    std::vector<std::string> parts;
+};
+
 struct MergeReport {
     std::optional<std::string> part;
     std::optional<std::size_t> welded_vertices;
     std::vector<std::string> merged;
+    std::vector<StayingParts> staying;
 };
 
 void declare_report(DeclareFields<MergeReport>& d) {
@@ -48,6 +55,20 @@ void declare_report(DeclareFields<MergeReport>& d) {
     d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices merged into others.")
         .only_when("a part was merged");
     d.field("merged", &MergeReport::merged, "The names of the joined parts, in order.");
+    d.list("staying", &MergeReport::staying, "Selected parts that stay unchanged.",
+           [](DeclareFields<StayingParts>& s) {
+               s.field("reason", &StayingParts::reason, "Why they stay, for example animated or hidden.");
+               s.field("parts", &StayingParts::parts, "The names of the parts.");
+           });
+    d.tell([](const MergeReport& r) {
+        std::vector<std::string> lines{
+            r.part ? fmt::format("joined {} into '{}'", counted(r.merged.size(), "part"), *r.part)
+                   : "joined no parts"};
+        for (const StayingParts& s : r.staying)
+            lines.push_back(
+                fmt::format("not joined: {} {} ({})", s.parts.size(), s.reason, io::some_of(s.parts)));
+        return lines;
+    });
 }
 
 /// Numbers the faces by their original part, for `separate: group`.
@@ -85,7 +106,7 @@ const char* reason_to_stay(const io::PartView& view) {
 }
 
 /// [parts] true for the selected parts that are merged. Warns about the others.
-std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
+std::vector<bool> parts_to_merge(const Scene& scene, Context& context, MergeReport& report) {
     const std::vector<io::PartView> views = io::part_views(scene);
     std::vector<bool> chosen;
     chosen.reserve(scene.parts.size());
@@ -96,7 +117,8 @@ std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
         if (reason) staying[reason].push_back(io::one_line(scene.parts[i].name));
         chosen.push_back(selected && !reason);
     }
-    for (const auto& [reason, names] : staying)
+    for (const auto& [reason, names] : staying) {
+        report.staying.push_back({std::string(reason), names});
         context.warn("W-MERGE-STAYS",
                      fmt::format("merge: {} {} and {} not merged: {}",
                                  names.size() == 1 ? "a part is" : counted(names.size(), "part") + " are",
@@ -105,6 +127,7 @@ std::vector<bool> parts_to_merge(const Scene& scene, Context& context) {
                          ? "load: {instances: expand} makes a part of each"
                          : "to merge them in their rest pose, write the scene to PLY, which has no nodes, "
                            "and load that");
+    }
     return chosen;
 }
 
@@ -127,7 +150,7 @@ void keep_thickness(Scene& scene, const std::vector<bool>& chosen, Context& cont
 }
 
 Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& report) {
-    const std::vector<bool> chosen = parts_to_merge(scene, context);
+    const std::vector<bool> chosen = parts_to_merge(scene, context, report);
     keep_thickness(scene, chosen, context);
     std::vector<Part> rest;
     std::optional<Part> joined;

@@ -20,6 +20,14 @@ It also removes animation tracks that do not move a node (within 1e-6 of the sce
 Finally, it removes nodes that join, flatten and instance emptied, and groups that become empty.
 
 Other steps must be requested.
+The option max_motion drops animation keys that interpolation gives anyway, and stores constant tracks
+as a single key.
+The ratio is of the diagonal of the document's meshes.
+It is divided among all animated properties that move a vertex, so their errors together stay
+below it.
+Rotations also stay within 0.1 degrees, and scales within 0.001.
+Cubic tracks, and nodes above cameras or lights, keep their keys.
+The option resample replaces linear keys by keys at a fixed rate, which may cut off fast motions.
 The option drop_attributes removes texture coordinates without a texture, tangents without a normal
 map, normals of unlit materials, and their morph target data.
 It also removes colours that are entirely white, unless the primitive has extensions.

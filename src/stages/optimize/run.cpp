@@ -23,6 +23,8 @@ struct OptimizeOptions {
     bool dedup = true, join = true, join_shared = false, prune = true, keep_names = false;
     bool drop_attributes = false, drop_own = false, palette = false, flatten = false, instance = false;
     std::int64_t palette_min = 5, instance_min = 5;
+    std::optional<Ratio> max_motion;
+    std::optional<double> resample;
 };
 
 void declare(Declare<OptimizeOptions>& d) {
@@ -49,6 +51,13 @@ void declare(Declare<OptimizeOptions>& d) {
     d.option("join_shared", &OptimizeOptions::join_shared,
              "Also joins parts that share their mesh with others: fewer draw calls, but more bytes.");
     d.option("prune", &OptimizeOptions::prune, "Removes unused items.");
+    d.option(
+        "max_motion", &OptimizeOptions::max_motion,
+        "Drops animation keys that interpolation gives anyway: no vertex moves by more than this ratio of "
+        "the diagonal.");
+    d.option("resample", &OptimizeOptions::resample,
+             "Replaces linear animation keys by this many keys per second.")
+        .between(1, 1000);
     d.option("keep_names", &OptimizeOptions::keep_names,
              "Does not merge items with different names: materials, meshes and parts.");
 }
@@ -61,6 +70,7 @@ struct OptimizeReport {
     std::size_t palettes = 0, palette_materials = 0, flattened_parts = 0, instanced_meshes = 0, instances = 0;
     std::vector<std::string> dropped_attributes;
     io::TidyCounts erased;
+    std::optional<io::KeyCounts> keys;
 };
 
 std::size_t draw_calls_of(const Scene& scene) {
@@ -353,6 +363,18 @@ void join_parts(Optimization& w) {
     erase_parts(w.scene, gone);
 }
 
+void drop_keys(Optimization& w) {
+    if (!w.o.max_motion && !w.o.resample) return;
+    const double ratio = w.o.max_motion ? w.o.max_motion->value : 0;
+    io::KeyCounts all;
+    for (auto& tidy : w.tidies) {
+        const io::KeyCounts keys = tidy.drop_keys(ratio, w.o.resample);
+        all.before += keys.before;
+        all.after += keys.after;
+    }
+    if (all.before > 0) w.report.keys = all;
+}
+
 void drop_tracks(Optimization& w) {
     const Box box = io::drawn_bounds(w.scene);
     constexpr double ratio = 1e-6; // of the diagonal
@@ -434,6 +456,7 @@ void optimize(Optimization w) {
     if (w.o.instance) instance(w);
     if (w.o.join) join_parts(w);
     if (w.o.prune) drop_tracks(w);
+    drop_keys(w);
     if (w.o.dedup)
         for (auto& tidy : w.tidies) w.report.equal_accessors += tidy.merge_equal_accessors(w.o.keep_names);
     erase(w);
@@ -493,12 +516,19 @@ void declare_report(DeclareFields<OptimizeReport>& d) {
             "The positions of these meshes, which were parts before.");
     d.field("joined_parts", &OptimizeReport::joined_parts, "Parts that were joined into another part.");
     d.field("joined", &OptimizeReport::joined, "Names of the parts that others were joined into.");
+    d.object("keys", &OptimizeReport::keys, "Keys of animations.", [](DeclareFields<io::KeyCounts>& k) {
+         k.field("before", &io::KeyCounts::before, "Keys in the input.");
+         k.field("after", &io::KeyCounts::after, "Keys in the result.");
+     }).only_when("keys were dropped or resampled");
     d.object("erased", &OptimizeReport::erased, "Items that were removed from the documents.",
              declare_erased);
     d.tell([](const OptimizeReport& r) {
         std::vector<std::string> lines{fmt::format("{} -> {} draw calls, {} -> {} parts",
                                                    grouped(r.draw_calls_before), grouped(r.draw_calls_after),
                                                    grouped(r.parts_before), grouped(r.parts_after))};
+        if (r.keys)
+            lines.push_back(
+                fmt::format("{} -> {} keys of animations", grouped(r.keys->before), grouped(r.keys->after)));
         if (const auto erased = told(r.erased); !erased.empty())
             lines.push_back(fmt::format("erased: {}", fmt::join(erased, ", ")));
         return lines;

@@ -3,7 +3,8 @@
 
 namespace facetmill::help::textures {
 
-inline constexpr const char* about = R"(Makes the images of materials smaller, as PNG, JPEG, WebP or KTX2.)";
+inline constexpr const char* about =
+    R"(Makes the images of materials smaller, as PNG, JPEG, WebP, AVIF or KTX2.)";
 
 inline constexpr const char* details =
     R"(Images are scaled down to max_size and power_of_two, never up, with Lanczos's filter.
@@ -36,11 +37,12 @@ Sides are rounded down to multiples of 4 pixels.
 An image used both as colours and as numbers stays unchanged, and so does an image with a side below
 4 pixels (W-TEXTURE-KEPT).
 The bytes depend on the version of the program.
+AVIF needs a build with libavif, and its bytes depend on the version of libavif and libaom.
 Files refer to KTX2 images through KHR_texture_basisu.
 
-Files refer to WebP images through EXT_texture_webp.
+Files refer to WebP images through EXT_texture_webp, and to AVIF images through EXT_texture_avif.
 The extension becomes required, because there is no second image for readers without it.
-An image that is already the fallback for such readers is scaled, but does not become WebP.
+An image that is already the fallback for such readers is scaled, but does not become WebP or AVIF.
 With the common key `only`, images that unselected parts also use stay unchanged.
 
 Source: K. Turkowski, 'Filters for Common Resampling Tasks' (1990).)";

@@ -1,5 +1,6 @@
 #include "stages/textures/options.hpp"
 
+#include "io/images/avif.hpp"
 #include "io/images/ktx_workers.hpp"
 #include "options/mark_at.hpp"
 #include "platform/worker_process.hpp"
@@ -22,6 +23,7 @@ std::vector<NamedChoice<F>> formats() {
             {"png", Format::png, "PNG, lossless"},
             {"jpeg", Format::jpeg, "progressive JPEG, without alpha"},
             {"webp", Format::webp, "WebP, through EXT_texture_webp"},
+            {"avif", Format::avif, "AVIF, through EXT_texture_avif; needs a build with libavif"},
             {"ktx2", Format::ktx2, "KTX2, through KHR_texture_basisu; needs the program ktx or toktx"}};
 }
 
@@ -59,9 +61,8 @@ ImageSettings for_colours(const TexturesOptions& o) { return with_role(o, {}, 80
 ImageSettings for_normals(const TexturesOptions& o) { return with_role(o, o.normals, 90); }
 ImageSettings for_data(const TexturesOptions& o) { return with_role(o, o.data, 90); }
 
-bool wants_ktx2(const TexturesOptions& o) {
-    return for_colours(o).format == Format::ktx2 || for_normals(o).format == Format::ktx2 ||
-           for_data(o).format == Format::ktx2;
+bool wants(const TexturesOptions& o, Format format) {
+    return for_colours(o).format == format || for_normals(o).format == format || for_data(o).format == format;
 }
 
 void declare_textures(Declare<TexturesOptions>& d) {
@@ -77,10 +78,11 @@ void declare_textures(Declare<TexturesOptions>& d) {
                      "The format of the images. An image is converted only if it becomes smaller.")
         .also_called(format_synonyms);
     d.option("quality", &TexturesOptions::quality,
-             "The quality of converted or scaled JPEG, WebP and KTX2 images. Default: 80 for colours and 90 "
+             "The quality of converted or scaled JPEG, WebP, AVIF and KTX2 images. Default: 80 for colours "
+             "and 90 "
              "for others.")
         .between(1, 100);
-    d.option("lossless", &TexturesOptions::lossless, "Writes lossless WebP.");
+    d.option("lossless", &TexturesOptions::lossless, "Writes lossless WebP or AVIF.");
     d.option("repack", &TexturesOptions::repack,
              "Repacks PNG and JPEG images that would stay unchanged, if that makes them smaller. Pixels do "
              "not change.");
@@ -93,13 +95,19 @@ void declare_textures(Declare<TexturesOptions>& d) {
 }
 
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems) {
-    if (wants_ktx2(o) && !has_workers()) {
+    if (wants(o, Format::avif) && !io::has_avif()) {
+        add_refusal(Refusal{"format", "AVIF needs libavif, which this build lacks",
+                            "use format: webp, or install libavif-dev and build facetmill again", "E-AVIF"},
+                    "textures", given, problems);
+        return;
+    }
+    if (wants(o, Format::ktx2) && !has_workers()) {
         add_refusal(Refusal{"format", "facetmill cannot write KTX2 on this system",
                             "use format: webp, or run this stage on Linux", "E-KTX"},
                     "textures", given, problems);
         return;
     }
-    if (wants_ktx2(o) && !io::ktx_program()) {
+    if (wants(o, Format::ktx2) && !io::ktx_program()) {
         const char* named = std::getenv("FACETMILL_KTX");
         add_refusal(
             Refusal{"format",
@@ -114,9 +122,11 @@ void verify_textures(const TexturesOptions& o, const Value& given, Problems& pro
     const std::pair<const char*, ImageSettings> roles[] = {
         {"lossless", for_colours(o)}, {"normals", for_normals(o)}, {"data", for_data(o)}};
     for (const auto& [option, s] : roles) {
-        if (!s.lossless || s.format == Format::webp || s.format == Format::keep) continue;
-        add_refusal(Refusal{option, "'lossless' needs format: webp", "use format: webp, or remove it"},
-                    "textures", given, problems);
+        if (!s.lossless || s.format == Format::webp || s.format == Format::avif || s.format == Format::keep)
+            continue;
+        add_refusal(
+            Refusal{option, "'lossless' needs format: webp or avif", "use format: webp, or remove it"},
+            "textures", given, problems);
         return;
     }
 }

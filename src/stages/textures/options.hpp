@@ -5,7 +5,7 @@
 
 namespace facetmill::textures_stage {
 
-enum class Format { keep, png, jpeg, webp, ktx2 };
+enum class Format { keep, png, jpeg, webp, avif, ktx2 };
 /// The format's name in options: "png".
 [[nodiscard]] std::string name_of(Format format);
 
@@ -36,11 +36,11 @@ struct ImageSettings {
 [[nodiscard]] ImageSettings for_data(const TexturesOptions& o);
 
 void declare_textures(Declare<TexturesOptions>& d);
-/// Whether any role is to be encoded as KTX2.
-bool wants_ktx2(const TexturesOptions& o);
+/// Whether any role is to be encoded in the format.
+bool wants(const TexturesOptions& o, Format format);
 
-/// Checks that lossless has WebP and that KTX2 has an installed encoder, which the declaration cannot
-/// express.
+/// Checks that lossless has WebP or AVIF, and that AVIF and KTX2 have an encoder, which the declaration
+/// cannot express.
 void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems);
 
 } // namespace facetmill::textures_stage

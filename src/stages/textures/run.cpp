@@ -145,7 +145,8 @@ void tell(const std::vector<Job>& jobs, Context& context, TexturesReport& report
 }
 
 void declare_state(DeclareFields<ImageState>& d) {
-    d.field("format", &ImageState::format, "The format: png, jpeg, webp, ktx2 or dds. Empty for others.");
+    d.field("format", &ImageState::format,
+            "The format: png, jpeg, webp, avif, ktx2 or dds. Empty for others.");
     d.field("width", &ImageState::width, "0 if the image cannot be read.").unit("pixels");
     d.field("height", &ImageState::height, "0 if the image cannot be read.").unit("pixels");
     d.field("bytes", &ImageState::bytes, "The size of the file.").unit("bytes");
@@ -205,7 +206,7 @@ Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesRepor
     std::vector<Job> jobs = jobs_of(images);
     work(jobs, o);
     put_back(scene, jobs);
-    if (wants_ktx2(o))
+    if (wants(o, Format::ktx2))
         context.mark_uncacheable(); // a different version of the program may write different bytes
     tell(jobs, context, report);
     return scene;
@@ -219,7 +220,7 @@ struct TexturesStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<TexturesStage>(
     {.name = "textures",
-     .also_called = "ktx toktx webp",
+     .also_called = "ktx toktx webp avif",
      .about = help::textures::about,
      .details = help::textures::details,
      .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",

@@ -1,5 +1,6 @@
 #include "stages/textures/work.hpp"
 
+#include "io/images/avif.hpp"
 #include "io/images/encode_image.hpp"
 #include "io/images/image_files.hpp"
 #include "io/images/ktx_workers.hpp"
@@ -57,6 +58,7 @@ io::Bytes encoded(const Pixels& image, const std::string& format, const ImageSet
     const io::LossSettings loss{s.quality, s.lossless, kind != io::PixelKind::colours};
     if (format == "jpeg") return io::encoded_jpeg(image, loss);
     if (format == "webp") return io::encoded_webp(image, loss);
+    if (format == "avif") return io::encoded_avif(image, loss);
     return io::encoded_png(image);
 }
 
@@ -108,7 +110,8 @@ Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
     if (use.held) return {"it is used outside these parts"};
     if (use.nearest) return {"its pixels are read one by one, like a palette"};
     if (use.textures.empty()) return {"no material uses it"};
-    if (image.format == "ktx2" || image.format == "dds") return {"its format cannot be read"};
+    if (image.format == "ktx2" || image.format == "dds" || (image.format == "avif" && !io::has_avif()))
+        return {"its format cannot be read"};
     if (image.width == 0) return {"it is broken", true};
     if (image.height > io::max_pixels / image.width) return {"it has more than 2^26 pixels", true};
     return {};
@@ -130,8 +133,8 @@ ProcessedImage processed_image(const io::Bytes& bytes, const ImageState& before,
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
     ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);
-    if (use.fallback && format == "webp")
-        format = before.format; // readers that need the fallback do not support WebP
+    if (use.fallback && (format == "webp" || format == "avif"))
+        format = before.format; // readers that need the fallback support neither
     std::string why;
     bool warn = false;
     if (format == "ktx2") {

@@ -8,7 +8,7 @@ namespace facetmill::textures_stage {
 
 /// The properties of an image file.
 struct ImageState {
-    std::string format; ///< "png", "jpeg", "webp", "ktx2", "dds"; empty for others
+    std::string format; ///< "png", "jpeg", "webp", "avif", "ktx2", "dds"; empty for others
     std::size_t width = 0, height = 0, bytes = 0;
 };
 

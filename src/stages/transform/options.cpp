@@ -80,8 +80,7 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.option("overhang_angle", &TransformOptions::overhang_angle,
              "For orient_for: a face overhangs if it looks down and its slope against the ground is below "
              "this angle.")
-        .above(0)
-        .below(90);
+        .between(0, 90);
     d.option("fit", &TransformOptions::fit,
              "Scales the parts uniformly until their bounding box fits into a cube with this side. For "
              "example, fit: 120mm makes the longest side 120 mm. Three lengths give a box instead of a cube. "

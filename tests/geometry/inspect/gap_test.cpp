@@ -17,6 +17,26 @@ Mesh box(const Vec3& low, const Vec3& high) {
     return mesh;
 }
 
+/// An outline, counterclockwise, raised to a height.
+Mesh prism(const std::vector<std::pair<double, double>>& outline, double height) {
+    Mesh mesh;
+    const auto n = static_cast<Index>(outline.size());
+    std::vector<Index> low, high;
+    for (const double z : {0.0, height})
+        for (const auto& [x, y] : outline) mesh.positions.push_back({x, y, z});
+    for (Index i = 0; i < n; ++i) {
+        low.insert(low.begin(), i);
+        high.push_back(n + i);
+    }
+    add_face(mesh, low);
+    add_face(mesh, high);
+    for (Index i = 0; i < n; ++i) {
+        const Index next = (i + 1) % n, side[4] = {i, next, n + next, n + i};
+        add_face(mesh, side);
+    }
+    return mesh;
+}
+
 double gap_of(const Mesh& mesh) { return measure(mesh, *property_named("gap")).value_or(HUGE_VAL); }
 
 /// The least distance along outward normals, from a grid of points of each face, to faces within 45 degrees
@@ -80,8 +100,33 @@ TEST_CASE("gap agrees with samples of all pairs of faces", "[geometry][bed]") {
 TEST_CASE("component_size finds the smallest piece", "[geometry][bed]") {
     Mesh mesh = box({0, 0, 0}, {5, 4, 1});
     append(mesh, box({7, 7, 7}, {7.1, 7.25, 7.05}));
-    CHECK(*measure(mesh, *property_named("component_size")) == Approx(0.25));
+    const double small = std::sqrt(0.1 * 0.1 + 0.25 * 0.25 + 0.05 * 0.05);
+    CHECK(*measure(mesh, *property_named("component_size")) == Approx(small));
     const auto sizes = face_values(mesh, *property_named("component_size"));
-    CHECK(sizes.front() == 5);
-    CHECK(sizes.back() == Approx(0.25));
+    CHECK(sizes.front() == Approx(std::sqrt(42.0)));
+    CHECK(sizes.back() == Approx(small));
+}
+
+TEST_CASE("detail is the width of the narrowest rib or groove", "[geometry][bed]") {
+    const auto detail_of = [](const Mesh& mesh) { return *measure(mesh, *property_named("detail")); };
+    // Teeth on a plate, seen from the side: ribs 0.5 wide with grooves between them.
+    const auto comb = [](double rib, double groove) {
+        const double left = 3 - rib, mid = 3 + groove, right = 3 + groove + rib;
+        return prism({{0, 0},
+                      {9, 0},
+                      {9, 2},
+                      {right, 2},
+                      {right, 3},
+                      {mid, 3},
+                      {mid, 2},
+                      {3, 2},
+                      {3, 3},
+                      {left, 3},
+                      {left, 2},
+                      {0, 2}},
+                     4);
+    };
+    CHECK(detail_of(comb(0.5, 0.75)) == Approx(0.5));
+    CHECK(detail_of(comb(0.75, 0.25)) == Approx(0.25));
+    CHECK(detail_of(box({0, 0, 0}, {5, 4, 1})) == Approx(1)); // no groove: the wall
 }

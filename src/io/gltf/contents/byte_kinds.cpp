@@ -64,8 +64,8 @@ ByteKinds by_name(const std::string& name, std::uint64_t size) {
     std::string suffix = std::filesystem::path(name).extension().generic_string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    static constexpr std::array pictures{".png",   ".jpg", ".jpeg", ".webp", ".ktx2",
-                                         ".basis", ".dds", ".tga",  ".bmp"};
+    static constexpr std::array pictures{".png",  ".jpg",   ".jpeg", ".webp", ".avif",
+                                         ".ktx2", ".basis", ".dds",  ".tga",  ".bmp"};
     if (std::find(pictures.begin(), pictures.end(), suffix) != pictures.end()) return {0, size, 0};
     return suffix == ".mtl" || suffix == ".json" ? ByteKinds{0, 0, size} : ByteKinds{size, 0, 0};
 }

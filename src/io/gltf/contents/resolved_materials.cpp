@@ -5,6 +5,7 @@
 #include "base/math/portable_math.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/document/container.hpp"
+#include "io/images/avif.hpp"
 #include "io/images/pixels.hpp"
 
 #include <algorithm>
@@ -100,6 +101,8 @@ class LookBuilder {
             sample(item(json_, "samplers", sampler->index(count_of(json_, "samplers"), "sampler")), out);
         auto image = place.find("source");
         if (const auto webp = extension(place, "EXT_texture_webp")) image = webp->find("source");
+        if (const auto avif = extension(place, "EXT_texture_avif"); avif && (has_avif() || !image))
+            image = avif->find("source");
         if (!image) {
             warn(place.path(), "its image is of an unsupported kind",
                  "convert the image to PNG, JPEG or WebP");
@@ -158,7 +161,10 @@ class LookBuilder {
         }
         auto pixels = decoded_image(*bytes);
         if (!pixels) {
-            warn(index, "it is broken, or neither PNG nor JPEG nor WebP", "export the image again");
+            warn(index,
+                 has_avif() ? "it is broken, or neither PNG, JPEG, WebP nor AVIF"
+                            : "it is broken, or neither PNG nor JPEG nor WebP",
+                 "export the image again");
             return nullptr;
         }
         auto image = texture_image(static_cast<int>(pixels->width), static_cast<int>(pixels->height),

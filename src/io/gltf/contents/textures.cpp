@@ -20,7 +20,8 @@ struct KindOfImage {
     const char* type;
     const char* extension;
 };
-constexpr KindOfImage kinds_by_extension[] = {{"image/webp", "EXT_texture_webp"},
+constexpr KindOfImage kinds_by_extension[] = {{"image/avif", "EXT_texture_avif"},
+                                              {"image/webp", "EXT_texture_webp"},
                                               {"image/ktx2", "KHR_texture_basisu"}};
 
 /// owner[key] if it is an object, otherwise null.

@@ -2,6 +2,7 @@
 // Rotations use its filter QUATERNION; translations, animated scales and morph weights use EXPONENTIAL; the
 // rest is lossless.
 
+#include "io/gltf/contents/motion.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/numbers/compress.hpp"
 #include "io/gltf/numbers/quantise.hpp"
@@ -17,17 +18,28 @@ namespace {
 
 constexpr int finest = -1000; ///< exponent at which the largest number keeps all bits
 
+/// What numbers are for, and how exact they must be.
+struct StreamUse {
+    std::string path{};    ///< of an animation, or "turn" and "place" of instances; empty: exact
+    int exponent = finest; ///< of places
+    double limit = 0;      ///< of differences in animations; 0: the usual precision
+};
+
 class Streams {
   public:
     explicit Streams(Patch& patch)
-        : builder_(patch.builder), json_(patch.builder.json()), filters_(patch.settings.meshopt.filters) {}
+        : builder_(patch.builder), json_(patch.builder.json()), filters_(patch.settings.meshopt.filters) {
+        if (patch.settings.quantize.on) find_limits(std::ldexp(1.0, -patch.settings.position_bits()));
+    }
 
     void run();
 
   private:
     Attribute numbers(std::size_t accessor);
-    void store(Json& reference, const std::string& path, int exponent = finest);
-    std::optional<Stored> stored(std::size_t accessor, const std::string& path, int exponent);
+    void store(Json& reference, const StreamUse& use);
+    std::optional<Stored> stored(std::size_t accessor, const StreamUse& use);
+    void find_limits(double ratio);
+    double limit(const Json& target) const;
     void store_animation(Json& animation);
     void store_instances(Json& attributes, bool on_grid);
     bool on_grid(const Json& node) const;
@@ -35,6 +47,7 @@ class Streams {
     Builder& builder_;
     Json& json_;
     bool filters_;
+    std::optional<MotionLimits> limits_;      ///< of the document's nodes as they were read
     std::map<std::string, std::size_t> made_; ///< new accessors by old accessor and purpose
 };
 
@@ -62,8 +75,8 @@ std::optional<Stored> shorts(const Attribute& a, const Stored& floats) {
 
 /// True if two neighbouring keys are about half a turn apart. Rounding could then change the sign of their
 /// product, and interpolation would go the other way round.
-bool has_half_turns(const Attribute& keys) {
-    constexpr double rounding = 1e-3; // of the product: ten times the error of the filter
+bool has_half_turns(const Attribute& keys, double limit) {
+    const double rounding = std::max(1e-3, 2 * limit); // of the product: ten times the error of the filter
     for (std::size_t i = 1; i < keys.size() && keys.components == 4; ++i) {
         double along = 0;
         for (int c = 0; c < 4; ++c) along += keys.value(i - 1, c) * keys.value(i, c);
@@ -79,18 +92,28 @@ Attribute Streams::numbers(std::size_t index) {
     return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(builder_.current(), a)};
 }
 
-std::optional<Stored> Streams::stored(std::size_t index, const std::string& path, int exponent) {
+/// The coarsest exponent at which three numbers together are off by at most the limit.
+int exponent_within(double limit) {
+    constexpr double root_of_three = 1.7320508075688773;
+    return limit > 0 ? std::ilogb(2 * limit / root_of_three) : finest;
+}
+
+std::optional<Stored> Streams::stored(std::size_t index, const StreamUse& use) {
+    const auto& [path, exponent, limit] = use;
     const Json& given = json_["accessors"][index];
     if (!given.contains("bufferView") || given.contains("sparse")) return {};
     if (builder_.current().without_bytes(given["bufferView"].get<std::size_t>())) return {};
     const Attribute numbers = this->numbers(index);
     const bool floats = given["componentType"] == int(float32);
     std::optional<Stored> coded;
-    const bool turns = path == "turn" || (path == "rotation" && !has_half_turns(numbers));
-    if (filters_ && floats && turns && numbers.components == 4) coded = quaternions(numbers);
+    const bool turns = path == "turn" || (path == "rotation" && !has_half_turns(numbers, limit));
+    if (filters_ && floats && turns && numbers.components == 4)
+        coded = quaternions(numbers, limit > 0 ? bits_of_turns(numbers, limit) : 16);
     if (filters_ && floats && (path == "translation" || path == "weights"))
         coded = exponential(numbers,
-                            std::max(exponent_of_range(numbers, path_bits), finest_exponent(numbers)), false);
+                            std::max({exponent_of_range(numbers, path_bits), exponent_within(limit),
+                                      finest_exponent(numbers)}),
+                            false);
     if (filters_ && floats && path == "place")
         coded = exponential(numbers, std::max(exponent, finest_exponent(numbers)), false);
     if (coded && path == "weights")
@@ -106,14 +129,14 @@ std::optional<Stored> Streams::stored(std::size_t index, const std::string& path
 }
 
 /// Replaces the reference by a new accessor for this purpose.
-void Streams::store(Json& reference, const std::string& path, int exponent) {
+void Streams::store(Json& reference, const StreamUse& use) {
     const auto index = reference.get<std::size_t>();
     if (index >= count_of(json_, "accessors")) return;
-    const std::string key = fmt::format("{} {} {}", index, path, exponent);
+    const std::string key = fmt::format("{} {} {} {}", index, use.path, use.exponent, use.limit);
     auto known = made_.find(key);
     if (known == made_.end()) {
         std::size_t made = index;
-        if (auto better = stored(index, path, exponent)) {
+        if (auto better = stored(index, use)) {
             for (const char* member : {"name", "extras"})
                 if (json_["accessors"][index].contains(member))
                     better->accessor[member] = json_["accessors"][index][member];
@@ -125,19 +148,39 @@ void Streams::store(Json& reference, const std::string& path, int exponent) {
     reference = known->second;
 }
 
+void Streams::find_limits(double ratio) {
+    const Json& source = builder_.source().json();
+    if (!filters_ || !(ratio > 0) || count_of(source, "animations") == 0) return;
+    try {
+        limits_.emplace(builder_.source(), node_frames(source), ratio);
+    } catch (const Error& error) { // invalid skins or animations keep the usual precision
+        if (error.kind() != ErrorKind::malformed) throw;
+    }
+}
+
+/// How far the keys of a channel may be off.
+double Streams::limit(const Json& target) const {
+    const std::string path = target.value("path", "");
+    const auto node = index_at(target, "node", limits_ ? count_of(builder_.source().json(), "nodes") : 0);
+    return node && path != "weights" ? limits_->of(*node, path) : 0;
+}
+
 void Streams::store_animation(Json& animation) {
-    std::map<std::size_t, std::string> paths; // animated property by sampler; empty if channels differ
+    std::map<std::size_t, StreamUse> uses; // by sampler; without a path if channels differ
     for (const Json& channel : animation["channels"]) {
-        const std::string path = channel["target"].value("path", "");
-        const auto sampler = channel["sampler"].get<std::size_t>();
-        const auto [at, first] = paths.emplace(sampler, path == "scale" ? "translation" : path);
-        if (!first && at->second != (path == "scale" ? "translation" : path)) at->second.clear();
+        std::string path = channel["target"].value("path", "");
+        if (path == "scale") path = "translation";
+        const double limit = this->limit(channel["target"]);
+        const auto [at, first] =
+            uses.emplace(channel["sampler"].get<std::size_t>(), StreamUse{path, finest, limit});
+        if (!first && at->second.path != path) at->second.path.clear();
+        at->second.limit = std::min(at->second.limit, limit);
     }
     for (std::size_t s = 0; s < animation["samplers"].size(); ++s) {
         Json& sampler = animation["samplers"][s];
-        store(sampler["input"], "");
+        store(sampler["input"], {});
         const bool cubic = sampler.value("interpolation", "LINEAR") == "CUBICSPLINE";
-        store(sampler["output"], cubic ? "" : paths[s]);
+        store(sampler["output"], cubic ? StreamUse{} : uses[s]);
     }
 }
 
@@ -150,7 +193,7 @@ void Streams::run() {
     for (std::size_t s = 0; s < count_of(json_, "skins"); ++s) {
         if (!json_["skins"][s].contains("inverseBindMatrices")) continue;
         Json reference = json_["skins"][s]["inverseBindMatrices"];
-        store(reference, "");
+        store(reference, {});
         json_["skins"][s]["inverseBindMatrices"] = reference;
     }
     const Json::json_pointer instances("/extensions/EXT_mesh_gpu_instancing/attributes");
@@ -192,13 +235,13 @@ void Streams::store_instances(Json& attributes, bool on_grid) {
     }
     for (auto& [name, reference] : attributes.items()) {
         if (name == "ROTATION")
-            store(reference, "turn");
+            store(reference, {"turn"});
         else if (name == "TRANSLATION")
-            store(reference, "place", step);
+            store(reference, {"place", step});
         else if (name == "SCALE")
-            store(reference, "place", of_scale);
+            store(reference, {"place", of_scale});
         else
-            store(reference, "");
+            store(reference, {});
     }
 }
 

@@ -94,20 +94,57 @@ Stored octahedral_as(const Attribute& a, int bits) {
     return stored;
 }
 
+constexpr double root_of_two = 1.4142135623730951;
+
 /// A quaternion in the filter's form: without its largest component, which is positive.
-std::array<std::int16_t, 4> without_largest(std::array<double, 4> q) {
-    constexpr double steps = 32767, root = 1.4142135623730951;
+std::array<std::int16_t, 4> without_largest(const std::array<double, 4>& q, int bits) {
+    const double steps = static_cast<double>((1 << (bits - 1)) - 1);
     std::size_t largest = 0;
     for (std::size_t c = 1; c < 4; ++c)
         if (std::abs(q[c]) > std::abs(q[largest])) largest = c;
     const double sign = q[largest] < 0 ? -1 : 1;
     std::array<std::int16_t, 4> out{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const double x = q[(largest + 1 + c) % 4] * sign * root * steps;
+        const double x = q[(largest + 1 + c) % 4] * sign * root_of_two * steps;
         out[c] = static_cast<std::int16_t>(std::clamp(to_nearest(x), -steps, steps));
     }
-    out[3] = static_cast<std::int16_t>((32767 & ~3) | static_cast<int>(largest));
+    // The filter sets the two lowest bits to find the number of steps.
+    out[3] = static_cast<std::int16_t>((static_cast<int>(steps) & ~3) | static_cast<int>(largest));
     return out;
+}
+
+/// The element as a unit quaternion; none if its length differs from 1 by more than 1e-3.
+std::optional<std::array<double, 4>> unit_quaternion(const Attribute& a, std::size_t i) {
+    std::array<double, 4> q{};
+    double sum = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+        q[c] = a.value(i, static_cast<int>(c));
+        sum += q[c] * q[c];
+    }
+    const double norm = std::sqrt(sum);
+    constexpr double tolerance = 1e-3; // rotations have unit length within this tolerance
+    if (!(std::abs(norm - 1) <= tolerance)) return {};
+    for (double& x : q) x /= norm;
+    return q;
+}
+
+/// By how much rounding turns a rotation, in radians, to first order.
+double turn_by_rounding(const std::array<double, 4>& q, int bits) {
+    const auto stored = without_largest(q, bits);
+    const double step = 1 / (root_of_two * static_cast<double>((1 << (bits - 1)) - 1));
+    const auto largest = static_cast<std::size_t>(stored[3] & 3);
+    std::array<double, 4> back{};
+    double rest = 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double x = stored[c] * step;
+        back[(largest + 1 + c) % 4] = x;
+        rest -= x * x;
+    }
+    back[largest] = std::sqrt(std::max(rest, 0.0));
+    const double sign = q[largest] < 0 ? -1 : 1;
+    double sum = 0;
+    for (std::size_t c = 0; c < 4; ++c) sum += (back[c] * sign - q[c]) * (back[c] * sign - q[c]);
+    return 2 * std::sqrt(sum);
 }
 
 /// Distributes `whole` in proportion to the weights, so that the shares sum to it.
@@ -253,25 +290,30 @@ Stored octahedral(const Attribute& a, int bits) {
     return bits <= 8 ? octahedral_as<std::int8_t>(a, bits) : octahedral_as<std::int16_t>(a, bits);
 }
 
-std::optional<Stored> quaternions(const Attribute& a) {
+std::optional<Stored> quaternions(const Attribute& a, int bits) {
     std::vector<std::int16_t> out(4 * a.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-        std::array<double, 4> q{};
-        double sum = 0;
-        for (std::size_t c = 0; c < 4; ++c) {
-            q[c] = a.value(i, static_cast<int>(c));
-            sum += q[c] * q[c];
-        }
-        const double norm = std::sqrt(sum);
-        constexpr double tolerance = 1e-3; // rotations have unit length within this tolerance
-        if (!(std::abs(norm - 1) <= tolerance)) return {};
-        for (double& x : q) x /= norm;
-        const auto four = without_largest(q);
+        const auto q = unit_quaternion(a, i);
+        if (!q) return {};
+        const auto four = without_largest(*q, bits);
         std::copy(four.begin(), four.end(), out.begin() + static_cast<std::ptrdiff_t>(4 * i));
     }
     Stored stored = plain(out, 4, true, false);
     stored.filter = "QUATERNION";
     return stored;
+}
+
+int bits_of_turns(const Attribute& a, double angle) {
+    constexpr int fewest = 6, most = 16;
+    const auto fits = [&](int bits) {
+        for (std::size_t i = 0; i < a.size(); ++i)
+            if (const auto q = unit_quaternion(a, i); !q || !(turn_by_rounding(*q, bits) <= angle))
+                return false;
+        return true;
+    };
+    int bits = fewest;
+    while (bits < most && !fits(bits)) ++bits;
+    return bits;
 }
 
 std::optional<Stored> exponential(const Attribute& a, int exponent, bool bounds) {

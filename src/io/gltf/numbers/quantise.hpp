@@ -47,9 +47,11 @@ struct Stored {
 /// Floating-Point Normal Vectors", 2010). The octahedral coordinates have 2^(bits - 1) - 1 steps per side.
 /// bits: 2 to 16.
 [[nodiscard]] Stored octahedral(const Attribute& a, int bits);
-/// Unit quaternions for meshopt's filter QUATERNION, in 16 bits. None if the length of a quaternion differs
-/// from 1 by more than 1e-3.
-[[nodiscard]] std::optional<Stored> quaternions(const Attribute& a);
+/// Unit quaternions for meshopt's filter QUATERNION, in 4 to 16 bits. None if the length of a quaternion
+/// differs from 1 by more than 1e-3.
+[[nodiscard]] std::optional<Stored> quaternions(const Attribute& a, int bits = 16);
+/// The fewest bits that turn no rotation by more than an angle in radians, at most 16.
+[[nodiscard]] int bits_of_turns(const Attribute& a, double angle);
 /// Numbers for meshopt's filter EXPONENTIAL with a common exponent: multiples of 2^exponent, with an error of
 /// at most half of that. None if a number needs more than 24 bits.
 [[nodiscard]] std::optional<Stored> exponential(const Attribute& a, int exponent, bool bounds);

@@ -21,6 +21,11 @@ struct TidyCounts {
                 tracks = 0;
 };
 
+/// The number of keys of animations before and after.
+struct KeyCounts {
+    std::size_t before = 0, after = 0;
+};
+
 /// The items of a document that the scene's parts use.
 struct TidyRequest {
     std::set<std::size_t> emptied;                   ///< nodes whose meshes were moved elsewhere
@@ -78,6 +83,11 @@ class DocumentOptimizer {
     /// merge_equal_accessors and erase_unused.
     std::size_t drop_resting_tracks(double length);
 
+    /// Drops keys that interpolation gives within a limit, such that no vertex moves by more than a ratio of
+    /// the document's size (MotionLimits). With a rate, first writes linear keys at so many times a second.
+    /// Cubic keys stay. An animation keeps its duration. Call it before erase_unused.
+    KeyCounts drop_keys(double ratio, std::optional<double> rate);
+
     /// Moves nodes to the top of their scene, keeping their world transforms. `emptied` receives their
     /// ancestors without a mesh. None of the nodes may be bound (bound_parts). Returns the number of nodes
     /// that were not at the top.
@@ -116,6 +126,8 @@ class DocumentOptimizer {
     /// Adds a view with a separate buffer.
     std::size_t add_view(Bytes bytes);
     std::size_t add_floats(const std::vector<float>& numbers, int components);
+    /// Appends numbers to the bytes of the next view. Returns their accessor.
+    std::size_t add_keys(Bytes& bytes, const std::vector<float>& numbers, int components);
     void put_at_top(std::size_t node, std::size_t like);
 
     const Document& document_;

@@ -91,10 +91,14 @@ void drop_dead_meshes(Patch& patch, const PartMeshes& meshes);
 /// which the changes record.
 [[nodiscard]] StoredMeshes store_meshes(Patch& patch, PartNodes nodes);
 /// For meshopt: moves animations, instances and bind matrices into views that can be compressed. Rotations
-/// have 16 bits. Animated translations and scales have steps of at most 2^-16 of their largest extent.
+/// have 16 bits. Animated translations and scales have steps of at most 2^-16 of their largest extent. With
+/// quantize, both may be coarser, as long as no vertex moves by more than the step of its grid.
 /// Instances are exact to a quarter of a step of their mesh's grid, or to the float32 precision of the
 /// largest instance.
 void store_streams(Patch& patch, const StoredMeshes& meshes);
+
+/// Without meshopt, stores morph targets as sparse accessors where that is smaller.
+void store_sparse_targets(Patch& patch, const StoredMeshes& meshes);
 
 /// If requested, interleaves the attributes of each primitive in a view, or in several views beyond 252
 /// bytes per vertex. Primitives that share an attribute share the view. Morph targets, sparse attributes and
