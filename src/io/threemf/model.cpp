@@ -94,13 +94,18 @@ class ModelReader {
   private:
     void start_rare(const Element& e) {
         if (e.name == "beam")
-            for (const char* end : {"v1", "v2"}) object_->beams.push_back(natural(e, end));
+            beam(e);
         else if (e.name == "beamlattice")
             ++model_.skipped["radii of beams"];
         else if (e.name == "build")
             model_.has_build = true;
         else if (e.name == "vertices" || e.name == "triangles")
             note_attributes(e, {});
+    }
+
+    void beam(const Element& e) {
+        if (object_->beams.size() >= none - 2) beyond_limit(name_, "too many beams");
+        for (const char* end : {"v1", "v2"}) object_->beams.push_back(natural(e, end));
     }
 
     [[noreturn]] void fail(const Element& e, const std::string& message, std::string hint = {}) const {

@@ -136,7 +136,7 @@ class SceneMaker {
         const auto known = first_part_.find(id);
         vertices_ += object.positions.size();
         if (vertices_ > settings_.max_vertices) beyond_limit(name_, "too many vertices");
-        if (known != first_part_.end())
+        if (known != first_part_.end() || !object.beams.empty())
             require_memory(bytes_of(object), "copying the meshes of items", "use a machine with more memory");
         Mesh mesh = known == first_part_.end() ? mesh_of(id, object) : scene_.parts[known->second].mesh;
         if (known == first_part_.end() && !object.beams.empty()) {
@@ -161,7 +161,7 @@ class SceneMaker {
     }
     static double bytes_of(const Object& object) {
         return static_cast<double>(object.positions.size() * sizeof(Vec3) +
-                                   object.corners.size() * sizeof(Index));
+                                   (object.corners.size() + object.beams.size()) * sizeof(Index));
     }
 
     Mesh mesh_of(const ObjectId& id, const Object& object) {

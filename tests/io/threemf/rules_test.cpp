@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+namespace threemf_rules_test {
+
 using namespace facetmill;
 using namespace facetmill::test;
 
@@ -163,3 +165,5 @@ TEST_CASE("beams of a 3MF are lines, and slices leave the mesh", "[io]") {
           "malformed [E-3MF] a.3mf/3D/3dmodel.model: a beam of object 50 refers to vertex 9, but the object "
           "has 4");
 }
+
+} // namespace threemf_rules_test

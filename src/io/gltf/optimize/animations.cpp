@@ -89,7 +89,9 @@ void shorten_constants(Json& document, Json& animation, const std::vector<Track>
         const auto times = sampler["input"].get<std::size_t>(), values = sampler["output"].get<std::size_t>();
         const auto has_plain_keys = [&](std::size_t a) {
             return accessors[a]["count"] != 1 && accessors[a].contains("bufferView") &&
-                   !accessors[a].contains("sparse") && !has_additions(accessors[a]);
+                   !accessors[a].contains("sparse") && !has_additions(accessors[a]) &&
+                   !document["bufferViews"][accessors[a]["bufferView"].get<std::size_t>()].contains(
+                       "byteStride");
         };
         if (!is_constant || !has_plain_keys(times) || !has_plain_keys(values) ||
             !accessors[times].contains("max"))
