@@ -37,6 +37,7 @@ PUBLIC = {
     "geometry/boolean": "unions and Boolean operations, whose steps clean shares",
     "geometry/clean/steps.hpp": "repairs that unions end with",
     "geometry/deviation/deviation_fields.hpp": "the declared fields of a deviation, which reports show",
+    "geometry/hull/convex_parts.hpp": "convex decomposition, which hulls follow",
     "geometry/inspect/connectivity.hpp": "components of a mesh",
     "geometry/inspect/evidence.hpp": "where a property fails",
     "geometry/measure/pieces.hpp": "measures of meshes that come in pieces, for cells",

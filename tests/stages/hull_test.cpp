@@ -51,3 +51,30 @@ TEST_CASE("hull: refuses parts without a hull, and nodes that distort shapes", "
     CHECK(run_stage("hull", "", scene_of(shapes::grid(3, 3))).warnings() ==
           std::vector<std::string>{"W-HULL-FLAT"});
 }
+
+TEST_CASE("hull: numbers the shapes of a divided part", "[stages][convex-parts]") {
+    Mesh mesh = shapes::cube();
+    Mesh far = mesh;
+    for (Vec3& p : far.positions) p.x += 3;
+    append(mesh, far);
+    const auto names = [&](const std::string& engine) {
+        std::vector<std::string> all;
+        for (const Part& part :
+             run_stage("hull", "{max_parts: 4, engine: " + engine + "}", scene_of(mesh)).scene.parts)
+            all.push_back(part.name);
+        return all;
+    };
+    using Names = std::vector<std::string>;
+    CHECK(names("none") == Names{"part_00", "part_01"});
+    CHECK(names("unreal") == Names{"UCX_part_00", "UCX_part_01"});
+    CHECK(names("godot") == Names{"part_00-convcolonly", "part_01-convcolonly"});
+    CHECK(names("unity") == Names{"part_collider_00", "part_collider_01"});
+    Scene scene = scene_of(mesh);
+    scene.parts[0].transform.m[0][0] = 2;
+    CHECK(refusal_of("hull", "{max_parts: 4}", scene).find("would distort distances") != std::string::npos);
+    const auto world = run_stage("hull", "{max_parts: 4, per: scene, concavity: 0.2}", scene);
+    REQUIRE(world.scene.parts.size() == 2);
+    CHECK(world.record.result["shapes"][0]["volume"].get<double>() == Approx(2).epsilon(1e-4));
+    CHECK(refusal_of("hull", "{max_parts: 4}", scene_of(Mesh{})).find("cannot be divided") !=
+          std::string::npos);
+}

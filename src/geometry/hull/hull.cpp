@@ -143,6 +143,30 @@ ConvexSurface shape_around(const ConvexSurface& hull, const HullSettings& s, Hul
     return certified(corners, (capsule.ends[0] + capsule.ends[1]) / 2, hull.points);
 }
 
+/// The corners of the cubes around points, of twice the margin.
+std::vector<Vec3> padded(std::span<const Vec3> points, double margin) {
+    std::vector<Vec3> out;
+    out.reserve(8 * points.size());
+    for (const Vec3& p : points)
+        for (int i = 0; i < 8; ++i)
+            out.push_back(p +
+                          Vec3{i & 1 ? margin : -margin, i & 2 ? margin : -margin, i & 4 ? margin : -margin});
+    return out;
+}
+
+/// The hull of points with a margin. It grows about its middle, which adds no vertices. Thin hulls would grow
+/// too much, so they get more vertices instead.
+ConvexSurface hull_with_margin(std::span<const Vec3> points, bool is_solid, double margin) {
+    if (!is_solid) return convex_surface(padded(points, margin));
+    const ConvexSurface hull = convex_surface(points);
+    const std::vector<Vec3> cubes = padded(hull.points, margin);
+    const double first = margin / box_of(hull.points).longest_side();
+    constexpr double most = 0.004; // more would be visible
+    if (auto grown = enlarged_around(hull.points, mean_point(hull.points), cubes, {first, most}))
+        return *std::move(grown);
+    return convex_surface(cubes);
+}
+
 void scale_fitted(HullResult& out, const PowerScale& back) {
     const double factor = back({1, 0, 0}).x;
     if (auto* box = std::get_if<FittedBox>(&out.fitted)) {
@@ -156,6 +180,10 @@ void scale_fitted(HullResult& out, const PowerScale& back) {
 }
 
 } // namespace
+
+HullDimension dimension_of(std::span<const Vec3> points) {
+    return static_cast<HullDimension>(spanning(points).size());
+}
 
 std::vector<Vec3> hull_points(const Mesh& mesh) {
     std::vector<std::uint8_t> used(mesh.vertex_count(), mesh.corners.empty() && mesh.lines.empty());
@@ -172,15 +200,18 @@ HullResult convex_hull(std::span<const Vec3> points, const HullSettings& setting
     HullResult out;
     const std::vector<Index> span = spanning(points);
     out.dimension = static_cast<HullDimension>(span.size());
-    if (span.size() < 3) return out;
+    if (span.empty() || (span.size() < 3 && settings.margin == 0)) return out;
     const PowerScale scale = even_scale(box_of(points));
     std::vector<Vec3> scaled;
     if (!scale.none()) {
         scaled = scale(std::vector<Vec3>(points.begin(), points.end()));
         points = scaled;
     }
-    const bool is_flat = span.size() == 3;
-    const ConvexSurface hull = is_flat ? flat_surface(points, span) : convex_surface(points);
+    const bool is_flat = span.size() == 3 && settings.margin == 0;
+    const double margin = scale({settings.margin, 0, 0}).x;
+    const ConvexSurface hull = is_flat      ? flat_surface(points, span)
+                               : margin > 0 ? hull_with_margin(points, span.size() == 4, margin)
+                                            : convex_surface(points);
     out.hull_vertices = hull.points.size();
     out.hull_volume = unscaled(is_flat ? 0 : volume_of(hull), scale.volume());
     if (settings.shape == HullShape::hull &&

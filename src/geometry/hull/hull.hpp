@@ -13,6 +13,8 @@ enum class HullShape { hull, box, sphere, capsule };
 struct HullSettings {
     HullShape shape = HullShape::hull;
     std::size_t max_vertices = 0; ///< 0: any number, so the hull is exact; otherwise at least 12
+    /// Above 0: everything that is this close to a point along each axis is also inside the shape.
+    double margin = 0;
 };
 
 /// The dimension of the smallest flat that contains some points.
@@ -55,8 +57,12 @@ struct HullResult {
 ///
 /// Every shape except the exact hull is scaled about its centre, from one part in 2^48 upward, until exact
 /// predicates place all points inside or on it. A box around coplanar points is 2^-40 of its size thick.
+/// With a margin, every shape is treated like this, so it always has a volume.
 /// Throws a stage error (E-HULL) if no shape can be certified.
 [[nodiscard]] HullResult convex_hull(std::span<const Vec3> points, const HullSettings& settings);
+
+/// The dimension of the points, exactly.
+[[nodiscard]] HullDimension dimension_of(std::span<const Vec3> points);
 
 /// The points of a mesh that a hull contains: used by faces or lines, or all of a cloud. Points that are not
 /// finite are left out.

@@ -8,6 +8,11 @@ namespace facetmill {
 
 namespace {
 
+struct CornerLimits {
+    std::size_t most = 0;
+    double closest = 0; ///< the smallest distance between two corners
+};
+
 /// A convex polytope as loops of corners, which planes cut.
 class Polytope {
   public:
@@ -25,19 +30,21 @@ class Polytope {
     }
     const Vec3& point(Index i) const { return points_[i]; }
 
-    /// Removes the side that the normal points to. Does nothing, and returns false, if the rest would have
-    /// more corners, or if rounding leaves the cut without a single outline.
-    bool cut(const Vec3& normal, double offset, std::size_t max_corners) {
-        std::vector<double> beyond(points_.size());
-        for (std::size_t i = 0; i < points_.size(); ++i) beyond[i] = dot(normal, points_[i]) - offset;
+    /// Removes the side that the normal points to, or less of it. Does nothing, and returns false, if the
+    /// rest would have more than max_corners or close corners, or if rounding leaves the cut without a single
+    /// outline.
+    bool cut(const Vec3& normal, double offset, const CornerLimits& limits) {
+        const std::vector<double> beyond = heights(normal, offset, limits.closest);
         Polytope rest = *this;
         rest.faces_.clear();
         std::map<std::pair<Index, Index>, Index> crossings;
         const auto crossing = [&](Index a, Index b) {
-            const auto key = std::minmax(a, b);
-            const auto [at, fresh] = crossings.try_emplace(key, static_cast<Index>(rest.points_.size()));
+            const auto [low, high] = std::minmax(a, b);
+            if (beyond[low] == 0) return low;
+            if (beyond[high] == 0) return high;
+            const auto [at, fresh] =
+                crossings.try_emplace({low, high}, static_cast<Index>(rest.points_.size()));
             if (fresh) {
-                const auto [low, high] = key;
                 const double t = beyond[low] / (beyond[low] - beyond[high]);
                 rest.points_.push_back(mix(points_[low], points_[high], t));
             }
@@ -53,17 +60,45 @@ class Polytope {
                 if ((beyond[a] > 0) == (beyond[b] > 0)) continue;
                 const Index x = crossing(a, b);
                 (beyond[b] > 0 ? leaves : enters) = x;
-                loop.push_back(x);
+                if (x != a && x != b) loop.push_back(x);
             }
-            if (leaves != none && enters != none) rim[enters] = leaves;
+            if (leaves != none && enters != none && leaves != enters) rim[enters] = leaves;
             if (loop.size() > 2) rest.faces_.push_back(std::move(loop));
         }
-        if (!rest.close(rim) || rest.corners().size() > max_corners) return false;
+        if (!rest.close(rim) || !rest.keeps(limits, points_.size())) return false;
         *this = std::move(rest);
         return true;
     }
 
   private:
+    /// The heights of all corners above the plane, which moves outward until no corner is just below it. A
+    /// corner just above it counts as on it, with height 0.
+    std::vector<double> heights(const Vec3& normal, double offset, double closest) const {
+        std::vector<double> all(points_.size()), sorted;
+        for (std::size_t i = 0; i < points_.size(); ++i) all[i] = dot(normal, points_[i]) - offset;
+        sorted.reserve(points_.size());
+        for (const Index c : corners()) sorted.push_back(all[c]);
+        std::sort(sorted.begin(), sorted.end());
+        double outward = 0;
+        for (const double height : sorted)
+            if (height < outward && height > outward - closest) outward = height + closest;
+        for (double& height : all) {
+            height -= outward;
+            if (height > 0 && height < closest) height = 0;
+        }
+        return all;
+    }
+    /// Whether there are few enough corners, and those from the first new one keep their distance.
+    bool keeps(const CornerLimits& limits, std::size_t first_new) const {
+        const std::vector<Index> all = corners();
+        if (all.size() > limits.most) return false;
+        for (const Index c : all) {
+            if (c < first_new) continue;
+            for (const Index other : all)
+                if (other < c && length(points_[c] - points_[other]) < limits.closest) return false;
+        }
+        return true;
+    }
     /// Adds the face along the rim, if it is a single loop.
     bool close(const std::map<Index, Index>& rim) {
         if (rim.size() < 3) return false;
@@ -104,7 +139,8 @@ std::vector<Vec3> polytope_around(const ConvexSurface& hull, std::size_t max_ver
     const FittedBox box = oriented_box(hull);
     const Surface surface = surface_of(hull);
     const FaceTree tree(surface, FaceTree::Use::few);
-    const double enough = 1e-9 * length(box.size); // nearer corners are left
+    // Corners stay apart in the precision of files, even if the part is a few diagonals from the origin.
+    const double closest = 0x1p-18 * length(box.size);
     Polytope polytope(box);
     std::map<Index, Far> known; // by corner; a corner that cannot be cut has no distance
     for (bool changed = true; changed;) {
@@ -118,12 +154,12 @@ std::vector<Vec3> polytope_around(const ConvexSurface& hull, std::size_t max_ver
             }
             if (at->second.distance > farthest.distance) farthest = at->second;
         }
-        if (farthest.distance <= enough) break;
+        if (farthest.distance <= closest) break;
         double offset = -HUGE_VAL;
         for (const Vec3& p : hull.points) offset = std::max(offset, dot(farthest.towards, p));
         known[farthest.corner].distance = 0;
         changed = true;
-        (void)polytope.cut(farthest.towards, offset, max_vertices);
+        (void)polytope.cut(farthest.towards, offset, {max_vertices, closest});
     }
     std::vector<Vec3> corners;
     for (const Index c : polytope.corners()) corners.push_back(polytope.point(c));

@@ -7,8 +7,8 @@
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/rays.hpp"
+#include "geometry/spatial/solid_grid.hpp"
 #include "geometry/wrap/nearest_attributes.hpp"
-#include "geometry/wrap/touched_cells.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 #include "parallel/parallel.hpp"
@@ -75,11 +75,10 @@ Surface surface_of(const WrapInput& input) {
 double face_estimate(const Surface& surface, double alpha) {
     const Box box = surface.bounds();
     constexpr std::size_t most_cells = std::size_t{1} << 20;
-    const TouchedCells touched =
-        touched_cells(surface, std::max(alpha, box.longest_side() / 256), most_cells);
-    const double per_side = touched.size / alpha;
+    const SolidGrid grid(surface, std::max(alpha, box.longest_side() / 256), most_cells);
+    const double per_side = grid.cell_size() / alpha;
     constexpr double faces_per_cell = 3; // a torus has 2, a sheet, which gets two sides, about twice as many
-    return faces_per_cell * static_cast<double>(touched.count) * per_side * per_side;
+    return faces_per_cell * static_cast<double>(grid.touched()) * per_side * per_side;
 }
 
 [[noreturn]] void refuse_size(double faces, bool is_estimate, const WrapSettings& s) {

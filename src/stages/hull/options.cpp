@@ -22,17 +22,18 @@ const char* unreal_prefix(HullShape shape) {
 
 } // namespace
 
-std::string collider_name(const HullOptions& o, const std::string& part) {
+std::string collider_name(const HullOptions& o, const std::string& part, std::optional<std::size_t> number) {
+    const std::string numbered = number ? fmt::format("{}_{:02}", part, *number) : part;
     switch (o.engine) {
     case Engine::unreal:
-        return fmt::format("{}_{}_00", unreal_prefix(o.shape), part);
+        return fmt::format("{}_{}_{:02}", unreal_prefix(o.shape), part, number.value_or(0));
     case Engine::godot:
-        return part + "-convcolonly";
+        return numbered + "-convcolonly";
     case Engine::unity:
     case Engine::other:
-        return part + "_collider";
+        return number ? fmt::format("{}_collider_{:02}", part, *number) : part + "_collider";
     default:
-        return part;
+        return numbered;
     }
 }
 
@@ -55,9 +56,17 @@ void declare_hull(Declare<HullOptions>& d) {
              "limit.")
         .also_called("vertices max_verts maxNumVerticesPerCH")
         .between(12, 4096);
+    d.option("max_parts", &HullOptions::max_parts,
+             "The largest number of shapes per part. With more than 1, a concave part is divided first.")
+        .also_called("parts max_hulls max_convex_hull maxhulls convex_parts")
+        .between(1, 256);
+    d.option("concavity", &HullOptions::concavity,
+             "With max_parts: a hull whose points are all this close to the solid is not divided.")
+        .also_called("threshold error max_concavity")
+        .above(0);
     d.choice<Engine>(
         "engine", &HullOptions::engine,
-        {{"none", Engine::none, "NAME"},
+        {{"none", Engine::none, "NAME, or NAME_00, NAME_01 ..."},
          {"unreal", Engine::unreal, "UCX_NAME_00, or UBX, USP and UCP for box, sphere and capsule"},
          {"godot", Engine::godot, "NAME-convcolonly: a convex collision shape that is not drawn"},
          {"unity", Engine::unity, "NAME_collider"},

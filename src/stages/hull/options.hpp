@@ -14,13 +14,16 @@ struct HullOptions {
     HullShape shape = HullShape::hull;
     Per per = Per::part;
     std::optional<std::int64_t> max_vertices;
+    std::int64_t max_parts = 1;
+    Length concavity = Length::percent(2);
     Engine engine = Engine::none;
     bool keep = false;
 };
 
 void declare_hull(Declare<HullOptions>& d);
 
-/// The name by which the engine knows the collision shape of a part.
-[[nodiscard]] std::string collider_name(const HullOptions& o, const std::string& part);
+/// The name by which the engine knows a collision shape of a part. number: none if it is the only shape.
+[[nodiscard]] std::string collider_name(const HullOptions& o, const std::string& part,
+                                        std::optional<std::size_t> number);
 
 } // namespace facetmill::hull_stage

@@ -19,6 +19,12 @@ void declare_shape(DeclareFields<HullShapeReport>& d) {
     d.field("hull_vertices", &S::hull_vertices, "The number of vertices of the exact convex hull.");
     d.field("volume", &S::volume, "The volume of the mesh.").unit("scene units^3");
     d.field("hull_volume", &S::hull_volume, "The volume of the exact convex hull.").unit("scene units^3");
+    d.field("concavity", &S::concavity, "The largest distance of a point of the hull from the solid.")
+        .unit("scene units")
+        .only_when("max_parts is above 1");
+    d.field("resolution", &S::resolution, "The size of the grid cells that measure the concavity.")
+        .unit("scene units")
+        .only_when("max_parts is above 1");
     d.field("centre", &S::centre, "The centre of a box or sphere.").only_when("shape is box or sphere");
     d.field("size", &S::size, "The sides of a box along its axes.")
         .unit("scene units")

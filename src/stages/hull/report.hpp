@@ -15,7 +15,7 @@ struct HullShapeReport {
     std::optional<Vec3> centre, size;
     std::optional<std::array<Vec3, 3>> axes;
     std::optional<std::array<Vec3, 2>> ends;
-    std::optional<double> radius;
+    std::optional<double> radius, concavity, resolution;
 };
 
 struct HullReport {

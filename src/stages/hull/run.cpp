@@ -1,5 +1,8 @@
 #include "base/text/unique_names.hpp"
+#include "geometry/hull/convex_parts.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
+#include "parallel/parallel.hpp"
 #include "stages/hull/help.hpp"
 #include "stages/hull/report.hpp"
 
@@ -17,15 +20,40 @@ class ShapeMaker {
 
     /// Adds the shape of the points to the parts. of: the part whose node the shape uses.
     void add(std::span<const Vec3> points, const Part& of, std::vector<Part>& parts) {
-        HullResult hull =
-            convex_hull(points, {o_.shape, static_cast<std::size_t>(o_.max_vertices.value_or(0))});
+        HullResult hull = convex_hull(points, settings(0));
         check(hull, of.name);
-        add_shape(std::move(hull), collider_name(o_, of.name), of, parts);
+        add_shape(std::move(hull), collider_name(o_, of.name, std::nullopt), of, parts);
+    }
+
+    /// Adds the shapes around the convex parts of a mesh.
+    void add_divided(const Mesh& mesh, double concavity, const Part& of, std::vector<Part>& parts) {
+        const double stretch = mean_stretch(of.transform);
+        const ConvexPartsResult divided =
+            convex_parts(mesh, {static_cast<std::size_t>(o_.max_parts), concavity / stretch});
+        if (divided.parts.empty())
+            throw Error(
+                ErrorKind::stage, "E-HULL",
+                fmt::format("hull: part '{}' has no faces with a size, so it cannot be divided", of.name),
+                fmt::format("exclude it: only: [\"!{}\"]", of.name));
+        std::vector<HullResult> hulls(divided.parts.size());
+        parallel_for(
+            hulls.size(),
+            [&](std::size_t i) { hulls[i] = convex_hull(divided.parts[i].points, settings(divided.margin)); },
+            1);
+        for (std::size_t i = 0; i < hulls.size(); ++i) {
+            const auto number = hulls.size() > 1 ? std::optional(i) : std::nullopt;
+            add_shape(std::move(hulls[i]), collider_name(o_, of.name, number), of, parts);
+            report_.shapes.back().concavity = divided.parts[i].concavity * stretch;
+            report_.shapes.back().resolution = divided.resolution * stretch;
+        }
     }
 
     UniqueNames& names() { return names_; }
 
   private:
+    HullSettings settings(double margin) const {
+        return {o_.shape, static_cast<std::size_t>(o_.max_vertices.value_or(0)), margin};
+    }
     void add_shape(HullResult hull, const std::string& name, const Part& of, std::vector<Part>& parts) {
         Part shape;
         shape.name = names_.add(name);
@@ -61,12 +89,11 @@ class ShapeMaker {
 };
 
 void require_similarity(const HullOptions& o, const Part& part) {
-    if (o.shape == HullShape::hull || is_similarity(part.transform)) return;
+    if ((o.shape == HullShape::hull && o.max_parts == 1) || is_similarity(part.transform)) return;
     throw Error(
         ErrorKind::stage, "E-HULL",
-        fmt::format("hull: the node of part '{}' scales directions differently, so it would distort the "
-                    "shape",
-                    part.name),
+        fmt::format("hull: the node of part '{}' scales directions differently, so it would distort {}",
+                    part.name, o.shape == HullShape::hull ? "distances" : "the shape"),
         "use transform: {bake: true} first");
 }
 
@@ -81,21 +108,29 @@ void tell_dropped(const Part& part, Context& context) {
 /// One shape around all selected parts, in world space.
 void wrap_scene(Scene& scene, const HullOptions& o, Context& context, ShapeMaker& maker) {
     std::vector<Vec3> points;
+    Mesh mesh;
     std::vector<Part> parts;
     Part whole;
+    const double concavity = o.max_parts > 1 ? context.resolve(o.concavity, scene, "concavity") : 0;
     for (Part& part : scene.parts) {
         if (!context.selects(part, scene)) {
             parts.push_back(std::move(part));
             continue;
         }
         if (whole.name.empty()) whole.name = part.name;
-        for (const Vec3& p : hull_points(part.mesh)) points.push_back(part.transform.point(p));
+        if (o.max_parts > 1)
+            append(mesh, in_world(part));
+        else
+            for (const Vec3& p : hull_points(part.mesh)) points.push_back(part.transform.point(p));
         if (o.keep)
             parts.push_back(std::move(part));
         else
             tell_dropped(part, context);
     }
-    maker.add(points, whole, parts);
+    if (o.max_parts > 1)
+        maker.add_divided(mesh, concavity, whole, parts);
+    else
+        maker.add(points, whole, parts);
     scene.parts = std::move(parts);
 }
 
@@ -124,7 +159,11 @@ Scene run(Scene scene, const HullOptions& o, Context& context, HullReport& repor
         }
         require_similarity(o, part);
         std::vector<Part> shapes;
-        maker.add(hull_points(part.mesh), part, shapes);
+        if (o.max_parts > 1)
+            maker.add_divided(part.mesh, context.resolve(o.concavity, scene, "concavity", &part), part,
+                              shapes);
+        else
+            maker.add(hull_points(part.mesh), part, shapes);
         if (o.keep)
             parts.push_back(std::move(part));
         else
@@ -137,10 +176,12 @@ Scene run(Scene scene, const HullOptions& o, Context& context, HullReport& repor
 
 const RegisterStage registered = make_stage<StageOf<run>>(
     {.name = "hull",
-     .also_called = "convex_hull convexhull collision collider bounding_box obb qhull",
+     .also_called = "convex_hull convexhull convex_parts decompose vhacd coacd collision collider "
+                    "bounding_box obb qhull",
      .about = help::hull::about,
      .details = help::hull::details,
      .examples = {"hull", "hull: {max_vertices: 64, engine: unreal, keep: true}", "hull: box",
+                  "hull: {max_parts: 16, concavity: 2%, max_vertices: 32}",
                   "hull: {shape: sphere, per: scene}"},
      .lines = LinesPolicy::work,
      .may_lose = MayLose::all},
