@@ -63,3 +63,16 @@ TEST_CASE("merge leaves no joints without a skin", "[stages]") {
     CHECK(merged.scene.parts[0].mesh.find("JOINTS_0", Domain::wedge) == nullptr);
     CHECK(merged.scene.parts[0].mesh.find("WEIGHTS_0", Domain::wedge) == nullptr);
 }
+
+TEST_CASE("merge without attributes leaves a surface without seams", "[stages]") {
+    Scene scene = scene_of(shapes::uv_cube());
+    scene.materials.resize(1);
+    scene.parts[0].mesh.primitives.resize(1);
+    scene.parts[0].mesh.primitives[0].material = 0;
+    const auto run = run_stage("merge", "{attributes: none}", scene);
+    const Mesh& mesh = run.scene.parts[0].mesh;
+    CHECK_FALSE(mesh.has_seams());
+    CHECK(mesh.wedge_count() == 8);
+    CHECK(mesh.primitives.empty());
+    CHECK(mesh.attributes.empty());
+}
