@@ -22,9 +22,9 @@ std::vector<PictureSettings> views_of(const Scene& scene, int pixels, Likeness::
         all[4].viewpoint = Viewpoint::top;
         all[5].viewpoint = Viewpoint::bottom;
     } else {
-        // The directions of the first four, mirrored at the horizontal plane.
+        // The direction of Viewpoint::corner, from below.
         const Camera camera = camera_of(scene, common);
-        const Vec3 below = normalised(camera.front - camera.up * (2 * dot(camera.front, camera.up)));
+        const Vec3 below = camera.front + cross(camera.up, camera.front) * 0.55 - camera.up * 0.45;
         for (std::size_t i = 4; i < 8; ++i) all[i].from = below;
     }
     for (PictureSettings& view : all) view.camera = camera_of(scene, view);

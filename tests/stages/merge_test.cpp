@@ -83,3 +83,16 @@ TEST_CASE("merge reports the parts that it leaves, and why", "[stages]") {
     CHECK(run.record.result["staying"][1]["reason"] == "hidden");
     CHECK(run.record.result["staying"][1]["parts"] == Json::array({"unseen"}));
 }
+
+TEST_CASE("merge without attributes leaves a surface without seams", "[stages]") {
+    Scene scene = scene_of(shapes::uv_cube());
+    scene.materials.resize(1);
+    scene.parts[0].mesh.primitives.resize(1);
+    scene.parts[0].mesh.primitives[0].material = 0;
+    const auto run = run_stage("merge", "{attributes: none}", scene);
+    const Mesh& mesh = run.scene.parts[0].mesh;
+    CHECK_FALSE(mesh.has_seams());
+    CHECK(mesh.wedge_count() == 8);
+    CHECK(mesh.primitives.empty());
+    CHECK(mesh.attributes.empty());
+}

@@ -48,15 +48,26 @@ std::uint8_t level(double x) {
     return static_cast<std::uint8_t>(std::floor(std::clamp(x, 0.0, 1.0) * 255 + 0.5));
 }
 
-/// Directions over a plane with normal z, spread with the cosine as density. After P. Shirley and K. Chiu, "A
-/// Low Distortion Map Between Disk and Square" (1997); points of J. Hammersley's sequence.
+constexpr int phases = 16; ///< texels that share the rays: 4 x 4
+
+/// At least `count` directions over a plane with normal z, spread with the cosine as density. Every 16th is a
+/// set that is spread over the whole sky, too. After P. Shirley and K. Chiu, "A Low Distortion Map Between
+/// Disk and Square" (1997); each set is the sequence of J. Hammersley, shifted within its cells.
 std::vector<Vec3> sky_directions(int count) {
+    const int per_set = (count + phases - 1) / phases;
     std::vector<Vec3> all;
-    all.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
+    all.reserve(static_cast<std::size_t>(per_set * phases));
+    for (int i = 0; i < per_set * phases; ++i) {
+        const int in_set = i / phases, phase = i % phases;
         double inverse = 0, digit = 0.5;
-        for (int n = i; n > 0; n /= 2, digit /= 2) inverse += digit * (n % 2);
-        const double a = 2 * (i + 0.5) / count - 1, b = 2 * (inverse + 0.5 / count) - 1;
+        for (int n = in_set; n > 0; n /= 2) {
+            inverse += digit * (n % 2);
+            digit /= 2;
+        }
+        const double shift_a = (phase % 4 + 0.5) / 4, shift_b = (phase / 4 + 0.5) / 4; // of a cell
+        const double a = 2 * (in_set + shift_a) / per_set - 1;
+        const double turned = inverse + shift_b / per_set;
+        const double b = 2 * (turned - std::floor(turned)) - 1;
         double r = 0, angle = 0;
         if (a * a > b * b) {
             r = a;
@@ -204,8 +215,7 @@ class Baker {
         const std::size_t phase = (x % 4) + 4 * (y % 4);
         const auto [u, v] = frame_of(values.facet);
         Sky& sky = sky_[texel];
-        // Neighbouring phases are far apart in the sequence, so each texel sees all sides.
-        for (std::size_t i = phase; i < directions_.size(); i += 16) {
+        for (std::size_t i = phase; i < directions_.size(); i += phases) {
             const Vec3& d = directions_[i];
             const Vec3 ray = u * d.x + v * d.y + values.facet * d.z;
             ++sky.cast;

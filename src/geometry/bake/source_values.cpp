@@ -49,6 +49,9 @@ const Attribute* colours_of(const Mesh& mesh) {
     return nullptr;
 }
 
+/// The grey that pictures give to surfaces without a material and colours.
+constexpr std::array<float, 4> plain_surface{0.72F, 0.74F, 0.78F, 1};
+
 float multiplied(float a, float b) { return std::clamp(a * b, 0.0F, 1.0F); }
 
 /// The barycentric coordinates of a direction in the plane of a triangle, by least squares.
@@ -75,6 +78,7 @@ SourceReader::SourceReader(const BakeSource& source) : source_(source) {
         const Index material = p < mesh.primitives.size() ? mesh.primitives[p].material : none;
         coloured_[p] = colours && (p >= mesh.primitives.size() || mesh.primitives[p].has(colours->name));
         looks_[p].metalness = 0;
+        if (material == none && !coloured_[p]) looks_[p].base = plain_surface;
         if (material < source.looks.size()) looks_[p] = source.looks[material];
         if (material < source.double_sided.size()) sides[p] = source.double_sided[material];
         for (const Texture* t : {&looks_[p].base_texture, &looks_[p].normal_texture, &looks_[p].rough_texture,

@@ -21,6 +21,7 @@ Each texel casts a ray along the smooth normal to both sides, and takes the near
 Its face must look in the same direction, unless facing is any or the source is double-sided.
 The rays reach as far as the surfaces are apart, which bake measures, or as far as distance says.
 A texel whose ray hits nothing takes the nearest point of the source; the report counts these (missed_texels).
+Faces without a material and colours become grey.
 Colours are averaged in linear light, and textures are filtered by the size of a texel.
 dilation grows the border of each chart, so that smaller levels of the texture show no seams.
 

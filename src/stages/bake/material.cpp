@@ -152,6 +152,7 @@ void drop_unused_materials(Scene& scene) {
         for (const Part& part : scene.parts)
             if (part.document == own && part.source_mesh >= 0)
                 request.meshes.insert(static_cast<std::size_t>(part.source_mesh));
+        request.all = request.meshes.empty(); // it only holds materials, or its meshes were merged
         const Document bare = without_materials(*scene.documents[d]);
         io::DocumentOptimizer optimizer(bare);
         if (!optimizer.numbers_are_known()) continue;

@@ -18,7 +18,7 @@ The face attribute `group` numbers the original parts, so `separate: group` can 
 Nodes and skins are removed.
 Parts that would look different after merging stay unchanged (W-MERGE-STAYS).
 These are animated and instanced parts, levels of detail, and parts that viewers do not show.
-With attributes: none, only the surface remains.
+With attributes: none, only the surface remains, without `group`.
 Solids that only touch form one closed part.
 With weld they also share vertices.)";
 
