@@ -198,7 +198,9 @@ int Assembly::node(const TDF_Label& label, const std::optional<Colour>& inherite
     TDF_Label original = label;
     const bool refers = XCAFDoc_ShapeTool::GetReferredShape(label, original);
     std::string name = name_of(label);
-    if (name.empty() || name.starts_with("=>[")) name = name_of(original); // "=>[0:1:1:2]" names the original
+    // "=>[0:1:1:2]" and "NAUO1" are numbers of the use, which nobody has named.
+    if (name.empty() || name.starts_with("=>[") || name.starts_with("NAUO"))
+        if (std::string product = name_of(original); !product.empty()) name = std::move(product);
     if (!name.empty()) to["name"] = name;
     if (refers) add_place(XCAFDoc_ShapeTool::GetLocation(label), to);
     std::optional<Colour> colour = colour_of(label);
