@@ -108,6 +108,7 @@ void convert(const Options& given, const std::string& file, Glb& glb, Notes& not
     auto* files = new SceneFiles(options, file, notes); // the importer deletes it
     importer.SetIOHandler(files);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // no meshes that no file has
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, 0);
     const aiScene* scene = importer.ReadFile(options.name, steps);
     const std::string why = importer.GetErrorString();
