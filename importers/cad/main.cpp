@@ -27,6 +27,7 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -66,13 +67,15 @@ class Assembly {
     [[nodiscard]] std::optional<Colour> colour_of(const TDF_Label& label) const;
     [[nodiscard]] std::optional<Colour> colour_of(const TopoDS_Shape& shape) const;
     void add_layers(const TDF_Label& label, Json& to) const;
-    void triangulate(const TDF_LabelSequence& roots, const Options& options) const;
+    void triangulate(const TDF_LabelSequence& roots, const Options& options);
+    void refine(const TopoDS_Shape& shape);
 
     Handle(XCAFDoc_ShapeTool) shapes_;
     Handle(XCAFDoc_ColorTool) colours_;
     Handle(XCAFDoc_LayerTool) layers_;
     Glb& glb_;
     Notes& notes_;
+    IMeshTools_Parameters how_;
     std::map<std::optional<Colour>, int> materials_;
     /// By the solid, without its place, and the inherited colour.
     std::map<std::tuple<const void*, int, std::optional<Colour>>, int> meshes_;
@@ -132,6 +135,7 @@ int Assembly::mesh(const TopoDS_Shape& shape, const std::optional<Colour>& colou
                          static_cast<int>(shape.Orientation()), whole};
     const auto [at, is_new] = meshes_.try_emplace(key, -1);
     if (!is_new) return at->second;
+    refine(shape);
     const auto groups = groups_of(
         shape.Located(TopLoc_Location()),
         [&](const TopoDS_Shape& face) {
@@ -198,7 +202,9 @@ int Assembly::node(const TDF_Label& label, const std::optional<Colour>& inherite
     TDF_Label original = label;
     const bool refers = XCAFDoc_ShapeTool::GetReferredShape(label, original);
     std::string name = name_of(label);
-    if (name.empty() || name.starts_with("=>[")) name = name_of(original); // "=>[0:1:1:2]" names the original
+    // "=>[0:1:1:2]" and "NAUO1" are numbers of the use, which nobody has named.
+    if (name.empty() || name.starts_with("=>[") || name.starts_with("NAUO"))
+        if (std::string product = name_of(original); !product.empty()) name = std::move(product);
     if (!name.empty()) to["name"] = name;
     if (refers) add_place(XCAFDoc_ShapeTool::GetLocation(label), to);
     std::optional<Colour> colour = colour_of(label);
@@ -216,23 +222,37 @@ int Assembly::node(const TDF_Label& label, const std::optional<Colour>& inherite
     return glb_.add("nodes", std::move(to));
 }
 
-void Assembly::triangulate(const TDF_LabelSequence& roots, const Options& options) const {
+void Assembly::triangulate(const TDF_LabelSequence& roots, const Options& options) {
     Bnd_Box box;
     for (int i = 1; i <= roots.Length(); ++i)
         BRepBndLib::Add(XCAFDoc_ShapeTool::GetShape(roots.Value(i)), box, Standard_False);
     constexpr double millimetres = 1000, least = 1e-6, half_turn = 180;
     const double diagonal = box.IsVoid() ? 1 : std::sqrt(box.SquareExtent());
-    IMeshTools_Parameters how;
-    how.Deflection = std::max(
+    how_.Deflection = std::max(
         options.deviation > 0 ? options.deviation * millimetres : options.ratio * diagonal, diagonal * least);
-    how.DeflectionInterior = how.Deflection;
-    how.Angle = how.AngleInterior = options.degrees * M_PI / half_turn;
-    how.ControlSurfaceDeflection = Standard_True;
+    how_.DeflectionInterior = how_.Deflection;
+    how_.Angle = how_.AngleInterior = options.degrees * M_PI / half_turn;
     for (int i = 1; i <= roots.Length(); ++i) {
         const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(roots.Value(i));
         BRepTools::Clean(shape); // files may contain coarser triangles
-        BRepMesh_IncrementalMesh run(shape, how);
+        BRepMesh_IncrementalMesh run(shape, how_);
     }
+}
+
+/// Open CASCADE exceeds its deflection on spheres and the like: divides again, more finely, until it holds.
+void Assembly::refine(const TopoDS_Shape& shape) {
+    IMeshTools_Parameters how = how_;
+    constexpr int most_tries = 5;
+    double found = deviation_of(shape);
+    for (int tries = 0; tries < most_tries && found > how_.Deflection; ++tries) {
+        constexpr double least_step = 0.25, largest_step = 0.75;
+        how.Deflection *= std::clamp(how_.Deflection / found, least_step, largest_step);
+        how.DeflectionInterior = how.Deflection;
+        BRepTools::Clean(shape);
+        BRepMesh_IncrementalMesh run(shape, how);
+        found = deviation_of(shape);
+    }
+    if (found > how_.Deflection) notes_.warn("some faces deviate more than max_deviation");
 }
 
 void Assembly::add(const Options& options) {

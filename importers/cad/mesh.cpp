@@ -158,7 +158,48 @@ std::vector<gp_Vec> normals_of(const TriangulatedFace& face) {
     return means;
 }
 
+/// The deviation of one triangle of a face from the surface.
+double deviation_of(const Poly_Triangulation& triangles, int t, const Handle(Geom_Surface) & surface) {
+    std::array<int, 3> n{};
+    triangles.Triangle(t).Get(n[0], n[1], n[2]);
+    std::array<gp_XY, 3> uv;
+    std::array<gp_XYZ, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) {
+        uv[i] = triangles.UVNode(n[i]).XY();
+        p[i] = triangles.Node(n[i]).XYZ();
+    }
+    constexpr double third = 1.0 / 3;
+    constexpr std::array<std::array<double, 3>, 4> samples{
+        {{third, third, third}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
+    gp_XYZ across = (p[1] - p[0]) ^ (p[2] - p[0]);
+    const double area = across.Modulus();
+    if (!(area > 0)) return 0;
+    across /= area;
+    double largest = 0;
+    for (const auto& [a, b, c] : samples) {
+        const gp_XY at = uv[0] * a + uv[1] * b + uv[2] * c;
+        largest = std::max(largest, std::fabs((surface->Value(at.X(), at.Y()).XYZ() - p[0]) * across));
+    }
+    return largest;
+}
+
 } // namespace
+
+double deviation_of(const TopoDS_Shape& shape) {
+    double largest = 0;
+    for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+        const TopoDS_Face& face = TopoDS::Face(at.Current());
+        TopLoc_Location place, surface_place;
+        const auto triangles = BRep_Tool::Triangulation(face, place);
+        const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, surface_place);
+        if (triangles.IsNull() || surface.IsNull() || !triangles->HasUVNodes()) continue;
+        // Triangles and surface have the same place, except in old files that move one of them.
+        if (!(place == surface_place)) continue;
+        for (int t = 1; t <= triangles->NbTriangles(); ++t)
+            largest = std::max(largest, deviation_of(*triangles, t, surface));
+    }
+    return largest;
+}
 
 std::map<int, FaceGroup> groups_of(const TopoDS_Shape& shape,
                                    const std::function<int(const TopoDS_Shape&)>& material, Notes& notes) {

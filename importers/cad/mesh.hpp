@@ -19,4 +19,7 @@ struct FaceGroup {
 [[nodiscard]] std::map<int, FaceGroup>
 groups_of(const TopoDS_Shape& shape, const std::function<int(const TopoDS_Shape&)>& material, Notes& notes);
 
+/// The greatest distance between the shape and its triangles, at the middles of triangles and of their sides.
+[[nodiscard]] double deviation_of(const TopoDS_Shape& shape);
+
 } // namespace importers

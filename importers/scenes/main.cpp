@@ -108,9 +108,11 @@ void convert(const Options& given, const std::string& file, Glb& glb, Notes& not
     auto* files = new SceneFiles(options, file, notes); // the importer deletes it
     importer.SetIOHandler(files);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // no meshes that no file has
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, 0);
     const aiScene* scene = importer.ReadFile(options.name, steps);
-    if (!scene || !scene->mRootNode) throw std::runtime_error(importer.GetErrorString());
+    const std::string why = importer.GetErrorString();
+    if (!scene || !scene->mRootNode) throw std::runtime_error(why.empty() ? "assimp gives no reason" : why);
     const Convention convention = convention_of(*scene, options, file);
     glb.json["asset"]["generator"] =
         "assimp " + std::to_string(aiGetVersionMajor()) + "." + std::to_string(aiGetVersionMinor());

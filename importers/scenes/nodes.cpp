@@ -354,9 +354,9 @@ int Nodes::skin(const aiNode& node, const Ints& parts) {
     Json mesh = Json::object();
     write_mesh(parts, joints, mesh);
     Json skin = {{"joints", list}, {"inverseBindMatrices", glb_.floats(matrices, "MAT4")}};
-    const int index = glb_.add("skins", std::move(skin));
+    const int index = glb_.add("skins", std::move(skin)), shape = glb_.add("meshes", std::move(mesh));
     Json& to = glb_.json["nodes"][static_cast<std::size_t>(index_.at(&node))];
-    to["mesh"] = glb_.add("meshes", std::move(mesh));
+    to["mesh"] = shape;
     to["skin"] = index;
     return index;
 }

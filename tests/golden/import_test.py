@@ -248,6 +248,27 @@ def dae(unit, up):
 """
 
 
+def skinned_dae():
+    """The box in inches, hung on a joint at (0, 0, 1) that a second one follows."""
+    controller = """<library_controllers><controller id="c"><skin source="#box">
+<source id="cj"><Name_array id="cja" count="2">hip knee</Name_array><technique_common>
+<accessor source="#cja" count="2" stride="1"><param name="JOINT" type="name"/></accessor></technique_common></source>
+<source id="cb"><float_array id="cba" count="32">1 0 0 0 0 1 0 0 0 0 1 -1 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1 -3 0 0 0 1</float_array>
+<technique_common><accessor source="#cba" count="2" stride="16"><param name="TRANSFORM" type="float4x4"/></accessor>
+</technique_common></source>
+<source id="cw"><float_array id="cwa" count="2">1 0.5</float_array><technique_common>
+<accessor source="#cwa" count="2" stride="1"><param name="WEIGHT" type="float"/></accessor></technique_common></source>
+<joints><input semantic="JOINT" source="#cj"/><input semantic="INV_BIND_MATRIX" source="#cb"/></joints>
+<vertex_weights count="8"><input semantic="JOINT" source="#cj" offset="0"/><input semantic="WEIGHT" source="#cw" offset="1"/>
+<vcount>1 1 1 1 2 2 2 2</vcount><v>0 0 0 0 0 0 0 0 0 1 1 1 0 1 1 1 0 1 1 1 0 1 1 1</v></vertex_weights></skin></controller></library_controllers>
+<library_visual_scenes>"""
+    joints = """<node id="hip" sid="hip" name="hip" type="JOINT"><translate>0 0 1</translate>
+<node id="knee" sid="knee" name="knee" type="JOINT"><translate>0 0 2</translate></node></node>
+<node id="body" name="body"><instance_controller url="#c"><skeleton>#hip</skeleton></instance_controller></node></visual_scene>"""
+    begin, end = dae(0.0254, "Z_UP").split("<library_visual_scenes>")
+    return begin + controller + '<visual_scene id="s">' + joints + end[end.index("</library_visual_scenes>"):]
+
+
 def step(size, inch=False):
     """A box as a boundary representation (AP214)."""
     lines = []
@@ -360,6 +381,16 @@ class Scenes(RealHelper):
         self.write("a.fbx", fbx(1, 1))
         self.mill("pipe", "load", "a.fbx", "--unit", "mm", "!", "write", "a.stl", env=self.env)
         self.check_bounds(self.info("a.stl"), (10, 0, 0), (12, 3, 5))
+
+    def test_a_skin_at_rest_stands_where_the_mesh_does(self):
+        info = self.info("a.dae", skinned_dae())
+        inches = [[x / 0.0254 for x in info["drawn_bounds"][end]] for end in ("min", "max")]
+        self.check_bounds({"bounds": dict(zip(("min", "max"), inches))}, (0, 0, -3), (2, 5, 0))
+        self.mill("pipe", "load", "a.dae", "!", "write", "a.gltf", env=self.env)
+        document = json.loads((self.dir / "a.gltf").read_text())
+        joints = [document["nodes"][j]["name"] for j in document["skins"][0]["joints"]]
+        self.assertEqual(joints[:2], ["hip", "knee"])
+        self.assertEqual(self.info("a.gltf")["triangles"], 12)
 
     def test_phong_materials(self):
         self.write("a.fbx", fbx(1, 1))

@@ -174,7 +174,7 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
                      hint_of_suffix(o.path.text, names));
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} can be read but not written", codec->name),
-                     suggestion("", names));
+                     hint_of_suffix(o.path.text, names));
     else if (codec->can.honours("tiles") && !is_tileset_name(o.path.text))
         problems.add(
             path ? path->mark : mark, "E-FORMAT",
