@@ -29,7 +29,7 @@ class Packages(Case):
         if not shutil.which("npm"):
             self.assertFalse(STRICT, "npm is missing")
             self.skipTest("npm is missing")
-        self.run_ok("node", PACKAGING / "npm/pack.mjs", self.dir, FACETMILL, "x64")
+        self.run_ok("node", PACKAGING / "npm/pack.mjs", self.dir, FACETMILL, "linux-x64")
         project = self.dir / "project"
         project.mkdir()
         shutil.copy(PACKAGING / "npm/tests/test.mjs", project)

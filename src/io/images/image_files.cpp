@@ -191,10 +191,9 @@ fs::path file_name_of_image(const std::string& name, std::size_t index, Span byt
     std::string stem = name.empty() ? fmt::format("image{}", index) : name;
     const std::string last = lower_case(fs::path(stem).extension().generic_string());
     if (last == suffix || last == ".jpeg") stem.resize(stem.size() - last.size());
+    const std::string_view forbidden = R"(/\:*?"<>|)"; // in names on Windows, the first on all systems
     for (char& c : stem)
-        if (static_cast<unsigned char>(c) < ' ' ||
-            std::string_view(R"(/\:*?"<>|)").find(c) != std::string_view::npos)
-            c = '_';                               // some systems forbid these in names
+        if (static_cast<unsigned char>(c) < ' ' || forbidden.find(c) != forbidden.npos) c = '_';
     std::size_t end = std::min(stem.size(), most); // avoids cutting a character
     while (end < stem.size() && end > 0 && (static_cast<unsigned char>(stem[end]) & 0xc0) == 0x80) --end;
     return stem.substr(0, end) + suffix;
