@@ -193,9 +193,10 @@ void Journal::open_locked() {
     while (true) {
         file_ = open_file(path_, {.what = OpenFor::both, .create = Create::if_missing, .appends = true});
         if (!file_)
-            throw Error(ErrorKind::output, "E-WRITE",
-                        fmt::format("'{}' cannot be written: {}", path_.generic_string(), std::strerror(errno)),
-                        "a batch records its progress in this folder; choose another one with --output-dir");
+            throw Error(
+                ErrorKind::output, "E-WRITE",
+                fmt::format("'{}' cannot be written: {}", path_.generic_string(), std::strerror(errno)),
+                "a batch records its progress in this folder; choose another one with --output-dir");
         if (!try_lock(file_))
             throw Error(
                 ErrorKind::output, "E-BUSY",

@@ -60,7 +60,8 @@ TEST_CASE("columns are found by the names of the heading", "[io]") {
     CHECK(read("1,2,3\n-4,0.5,6\n") == expected);
     CHECK(read("x,y,z\n1 2 3\n-4,,0.5;6\n") ==
           expected); // if the coordinates come first, cells may be separated freely
-    CHECK(complaint("id,x,y,z\n7,1,2\n", names).find("the row has 3 columns, expected 4") != std::string::npos);
+    CHECK(complaint("id,x,y,z\n7,1,2\n", names).find("the row has 3 columns, expected 4") !=
+          std::string::npos);
     CHECK(complaint("id,x,y,z\n7,1,,3\n", names).find("expected a number") != std::string::npos);
     CHECK(complaint("id,x,y,z\n7,1,2,3m\n", names).find("expected a number, found '3m'") !=
           std::string::npos);
