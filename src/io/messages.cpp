@@ -100,6 +100,8 @@ const RegisterMessages io_messages{
      "Write glTF, OBJ or 3MF to keep them. `foreach: {part: \"*\"}` writes a file for each."},
     {"W-SIZE", "A part is so large or so small that products of its coordinates may overflow or underflow.",
      "Bring its size near 1 with `transform: {scale: ...}`; the message has the number to type."},
+    {"W-TRAILING", "facetmill skips bytes after the last item that a file promises, for example a second mesh.",
+     "Check that the mesh is complete, for example with `facetmill info`. If it is, the exporter has a bug."},
     {"W-SKIPPED", "facetmill skips data in a file that a mesh cannot represent.",
      "Ignore this warning if you do not need the data that the message names."},
     {"W-TEXTURES",

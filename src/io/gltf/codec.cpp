@@ -22,6 +22,7 @@
 #include "io/gltf/write/join_documents.hpp"
 #include "io/gltf/write/patch.hpp"
 #include "io/images/image_files.hpp"
+#include "io/trailing.hpp"
 #include "io/write_options.hpp"
 #include "parallel/memory.hpp"
 
@@ -271,6 +272,7 @@ bool place_at_centre(Json& document) {
 
 Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& log) {
     const Chunks chunks = chunks_of(input);
+    warn_of_trailing(log, input.name(), chunks.skipped, "the JSON and the buffer");
     auto document = std::make_shared<Document>();
     document->name = input.name();
     document->json = std::string(chunks.json);

@@ -6,6 +6,7 @@
 #include "io/srgb_colours.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
+#include "io/trailing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,12 +42,14 @@ std::optional<Kind> kind_named(std::string_view word) {
 /// either.
 struct Colours {
     std::vector<float> values; ///< four per colour; negative: missing
+    std::size_t mapped = 0;    ///< numbers of colours in a colour map, which is not read
     std::size_t most = 0;      ///< the largest count of numbers in a colour
     bool points = false;       ///< true if a number has a decimal point
     double largest = 0;
 
     void add(std::span<const double> given, bool whole) {
         const bool known = given.size() == 3 || given.size() == 4; // a single number indexes a colour map
+        mapped += !known && !given.empty() ? 1 : 0;
         points |= known && !whole;
         for (std::size_t c = 0; c < 4; ++c) {
             const bool there = known && c < given.size();
@@ -82,6 +85,7 @@ struct Builder {
     Mesh mesh;
     std::vector<float> normals, uvs;
     Colours vertex_colours, face_colours;
+    std::size_t trailing = 0; ///< bytes after the last face
 
     /// Refuses counts that the remaining bytes cannot fill. line: 0 for a binary file.
     void check(std::int64_t vertices, std::int64_t faces, std::int64_t line, std::size_t left,
@@ -105,6 +109,12 @@ struct Builder {
     }
 
     Scene finish(ReadLog& log) {
+        warn_of_trailing(log, input.name(), trailing, "the last face");
+        if (const std::size_t mapped = vertex_colours.mapped + face_colours.mapped; mapped > 0)
+            log.warnings.push_back(
+                {Severity::warning, "W-SKIPPED",
+                 fmt::format("colours that are numbers of a colour map are skipped ({})", mapped),
+                 file_mark(input.name()), "export colours as three or four numbers"});
         if (!normals.empty())
             add_attribute(mesh, {"NORMAL", Domain::wedge, Role::normal, 3, false, std::move(normals)});
         if (!uvs.empty())
@@ -134,6 +144,7 @@ class TextReader {
         std::vector<Index> corners;
         for (std::int64_t v = 0; v < vertices; ++v, tell(v, all)) vertex();
         for (std::int64_t f = 0; f < faces; ++f, tell(f, all)) face(corners, vertices);
+        if (!text_.at_end()) out_.trailing = text_.left();
     }
 
   private:
@@ -237,6 +248,7 @@ class BinaryReader {
         std::vector<Index> corners;
         for (std::int64_t f = 0; f < faces; ++f, ProgressScope::report_item(++item, items))
             face(corners, vertices, colours);
+        out_.trailing = bytes_.size() - at_;
     }
 
   private:
@@ -359,7 +371,7 @@ Kind read_kind(Text& text) {
 
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     Text text(as_text(input.bytes()), input.name(), "E-OFF", '#');
-    Builder out{input, settings, {}, {}, {}, {}, {}};
+    Builder out{input, settings, {}, {}, {}, {}, {}, 0};
     const Kind kind = read_kind(text);
     if (kind.binary)
         BinaryReader(out, kind, text.offset()).read();

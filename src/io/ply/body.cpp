@@ -4,6 +4,7 @@
 #include "io/text.hpp"
 #include "parallel/parallel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -235,6 +236,18 @@ std::vector<Column> Body::read(const Element& element) {
     reader_->check_count(element);
     return reader_->encoding == Encoding::ascii ? reader_->read_ascii(element)
                                                 : reader_->read_binary(element);
+}
+
+std::size_t Body::left() const {
+    if (reader_->encoding != Encoding::ascii) {
+        const Span rest = reader_->input.bytes().subspan(reader_->at);
+        const bool is_line_end = std::all_of(rest.begin(), rest.end(), [](std::byte b) {
+            return b == std::byte{'\n'} || b == std::byte{'\r'};
+        });
+        return is_line_end ? 0 : rest.size();
+    }
+    Text ahead = reader_->text;
+    return ahead.at_end() ? 0 : ahead.left();
 }
 
 } // namespace facetmill::io::ply

@@ -64,6 +64,8 @@ class Body {
     ~Body();
     /// The columns of the next element, in the order of its properties.
     std::vector<Column> read(const Element& element);
+    /// The number of bytes after the elements read so far, 0 if only ends of lines or blanks follow.
+    std::size_t left() const;
 
   private:
     struct Reader;

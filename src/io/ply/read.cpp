@@ -7,6 +7,7 @@
 #include "io/ply/table.hpp"
 #include "io/ply/textures.hpp"
 #include "io/text.hpp"
+#include "io/trailing.hpp"
 #include "parallel/parallel.hpp"
 
 #include <algorithm>
@@ -315,6 +316,9 @@ Scene Builder::read() {
             skipped(fmt::format("element '{}' ({})", e.name, e.count));
         steps.next();
     }
+    const auto is_bare = [](const Element& e) { return e.properties.empty(); }; // its size is not known
+    if (std::none_of(header.elements.begin(), header.elements.end(), is_bare))
+        warn_of_trailing(log_, input_.name(), body.left(), "the last element");
     set_positions();
     set_faces();
     set_lines();

@@ -7,6 +7,7 @@
 #include "io/srgb_colours.hpp"
 #include "io/stated.hpp"
 #include "io/text.hpp"
+#include "io/trailing.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/position_hash.hpp"
 #include "parallel/parallel.hpp"
@@ -179,11 +180,8 @@ void add_attribute_bytes(Mesh& mesh, const Records& records, const Input& input)
 Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log) {
     const Span bytes = input.bytes();
     const std::size_t n = held_triangles(input);
-    if (head + n * record != bytes.size())
-        log.warnings.push_back({Severity::warning, "W-TRAILING",
-                                fmt::format("{} bytes after the last of {} triangles are skipped",
-                                            bytes.size() - head - n * record, n),
-                                file_mark(input.name()), ""});
+    warn_of_trailing(log, input.name(), bytes.size() - head - n * record,
+                     fmt::format("the last of {} triangles", n));
     if (n != promised_triangles(bytes))
         log.warnings.push_back(
             {Severity::warning, "W-COUNT",

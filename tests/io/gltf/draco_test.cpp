@@ -29,7 +29,7 @@ void add(::draco::Mesh& mesh, ::draco::GeometryAttribute::Type type, std::uint8_
 }
 
 /// A strip with all that is left quantised, and texture coordinates as floats or as whole numbers.
-std::vector<char> encoded(bool whole_uvs) {
+std::vector<char> encoded(bool whole_uvs, bool named = false) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> number(-3, 5);
     const auto floats = [&](std::size_t count) {
@@ -53,6 +53,15 @@ std::vector<char> encoded(bool whole_uvs) {
         add(mesh, Attribute::TEX_COORD, 2, ::draco::DT_FLOAT32, floats(points * 2));
     }
     add(mesh, Attribute::GENERIC, 1, ::draco::DT_FLOAT32, floats(points));
+    if (named) {
+        auto all = std::make_unique<::draco::GeometryMetadata>();
+        all->AddEntryString("author", "somebody");
+        mesh.AddMetadata(std::move(all));
+        auto own = std::make_unique<::draco::AttributeMetadata>();
+        own->AddEntryString("name", "heat");
+        own->AddEntryInt("first_object", 1);
+        mesh.AddAttributeMetadata(3, std::move(own));
+    }
     ::draco::Encoder encoder;
     for (const auto type : {Attribute::POSITION, Attribute::TEX_COORD, Attribute::GENERIC})
         encoder.SetAttributeQuantization(type, 11);
@@ -99,6 +108,15 @@ TEST_CASE("what Draco has quantised is the same as its own decoder gives, types 
                 column->data);
         }
     }
+}
+
+TEST_CASE("metadata of Draco other than names of attributes are counted", "[io]") {
+    const auto entries = [](bool named) {
+        const std::vector<char> bytes = encoded(false, named);
+        return io::decode_draco(std::as_bytes(std::span(bytes))).metadata;
+    };
+    CHECK(entries(false) == 0);
+    CHECK(entries(true) == 2);
 }
 
 TEST_CASE("Draco data that is known is not decoded again, other data is", "[io]") {

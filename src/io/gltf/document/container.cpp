@@ -71,10 +71,13 @@ Chunks split_glb(Span bytes) {
             chunks.json = as_text(data);
         } else if (kind == binary_chunk && !chunks.binary) {
             chunks.binary = data;
+        } else {
+            chunks.skipped += data.size();
         }
         at += 8 + std::size_t{size};
     }
     if (chunks.json.empty()) fail(12, "there is no JSON chunk");
+    chunks.skipped += bytes.size() - length;
     return chunks;
 }
 

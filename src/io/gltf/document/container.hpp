@@ -41,6 +41,7 @@ bool is_tileset(std::string_view json);
 struct Chunks {
     std::string_view json;
     std::optional<Span> binary;
+    std::size_t skipped = 0; ///< bytes of unknown chunks, and after the last chunk
 };
 /// Throws a malformed-input error (E-GLB) with the byte offset of the error. Skips unknown chunks.
 [[nodiscard]] Chunks split_glb(Span bytes);

@@ -131,6 +131,50 @@ void erase_default_members(Json& document) {
     }
 }
 
+using Defaults = std::vector<std::pair<const char*, Json>>;
+
+void erase_equal(Json& object, const Defaults& defaults) {
+    for (const auto& [key, value] : defaults)
+        if (const auto found = object.find(key); found != object.end() && *found == value) object.erase(key);
+}
+
+/// Erases default members of texture references ("...Texture") in a material and its extensions.
+void erase_texture_defaults(Json& json) {
+    static const Defaults reference{{"texCoord", 0}, {"scale", 1}, {"strength", 1}},
+        placing{{"offset", Json::array({0, 0})}, {"rotation", 0}, {"scale", Json::array({1, 1})}};
+    for (auto& [key, value] : json.get_ref<Json::object_t&>()) {
+        if (key == "extras" || !value.is_object()) continue;
+        if (std::string_view(key).ends_with("Texture") && value.contains("index")) {
+            erase_equal(value, reference);
+            const Json::json_pointer place("/extensions/KHR_texture_transform");
+            if (value.contains(place) && value[place].is_object()) erase_equal(value[place], placing);
+        }
+        erase_texture_defaults(value);
+    }
+}
+
+void erase_material_defaults(Json& document) {
+    static const Defaults own{{"emissiveFactor", Json::array({0, 0, 0})},
+                              {"alphaMode", "OPAQUE"},
+                              {"alphaCutoff", 0.5},
+                              {"doubleSided", false}},
+        pbr{{"baseColorFactor", Json::array({1, 1, 1, 1})}, {"metallicFactor", 1}, {"roughnessFactor", 1}};
+    for (std::size_t m = 0; m < count_of(document, "materials"); ++m) {
+        Json& material = document["materials"][m];
+        if (!material.is_object()) continue;
+        erase_equal(material, own);
+        erase_texture_defaults(material);
+        const auto found = material.find("pbrMetallicRoughness");
+        if (found == material.end() || !found->is_object()) continue;
+        erase_equal(*found, pbr);
+        if (found->empty()) material.erase("pbrMetallicRoughness");
+    }
+    for (std::size_t s = 0; s < count_of(document, "samplers"); ++s)
+        if (document["samplers"][s].is_object())
+            erase_equal(document["samplers"][s], {{"wrapS", 10497}, {"wrapT", 10497}});
+    if (document.contains("extensions") && document["extensions"].empty()) document.erase("extensions");
+}
+
 void drop_zero_offsets(Json& document) {
     const auto drop = [](Json& object) {
         if (object.contains("byteOffset") && object["byteOffset"] == 0) object.erase("byteOffset");
@@ -149,6 +193,7 @@ void drop_zero_offsets(Json& document) {
 
 void shorten(Json& document, const Box& bounds, const std::vector<Transform>& worlds) {
     shorten_nodes(document, bounds, worlds);
+    if (!uses_extension(document, "KHR_animation_pointer")) erase_material_defaults(document);
     if (document.contains("materials")) each_real(document["materials"], as_single);
     drop_zero_offsets(document);
     erase_default_members(document);

@@ -62,7 +62,7 @@ Mesh to_mesh(DracoMesh decoded) {
     return mesh;
 }
 
-Scene read(const Input& input, const ReadSettings& settings, ReadLog&) {
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::unknown);
     scene.up = settings.up.value_or(UpAxis::unknown);
@@ -73,6 +73,12 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog&) {
         if (decoded.points > settings.max_vertices)
             throw Error(ErrorKind::limit, "E-LIMIT",
                         fmt::format("more than {} vertices", settings.max_vertices));
+        if (decoded.metadata > 0)
+            log.warnings.push_back(
+                {Severity::warning, "W-SKIPPED",
+                 fmt::format("metadata of Draco are skipped ({}), for example names of objects",
+                             decoded.metadata),
+                 file_mark(input.name()), ""});
         part.mesh = to_mesh(std::move(decoded));
     } catch (Error& e) {
         throw e.at(file_mark(input.name()));

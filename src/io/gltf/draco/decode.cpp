@@ -249,6 +249,22 @@ void add_triangles(const ::draco::Mesh& mesh, DracoMesh& result) {
                          face(bad)[1].value(), face(bad)[2].value(), result.points));
 }
 
+std::size_t entries_of(const ::draco::Metadata& metadata) {
+    std::size_t count = metadata.entries().size();
+    for (const auto& [name, below] : metadata.sub_metadatas()) count += entries_of(*below);
+    return count;
+}
+
+/// The number of entries of metadata, without the names of attributes.
+std::size_t unread_metadata(const ::draco::PointCloud& cloud) {
+    const ::draco::GeometryMetadata* const all = cloud.GetMetadata();
+    if (!all) return 0;
+    std::size_t count = entries_of(*all);
+    for (const auto& attribute : all->attribute_metadatas())
+        count += entries_of(*attribute) - attribute->entries().count("name");
+    return count;
+}
+
 } // namespace
 
 DracoMesh decode_draco(Span bytes, DracoContents contents) {
@@ -259,6 +275,7 @@ DracoMesh decode_draco(Span bytes, DracoContents contents) {
         if (const auto* mesh = dynamic_cast<const ::draco::Mesh*>(cloud.get())) add_triangles(*mesh, result);
         for (int a = 0; a < cloud->num_attributes(); ++a)
             result.columns.push_back(column_of(*cloud, *cloud->attribute(a)));
+        result.metadata = unread_metadata(*cloud);
     } catch (const std::bad_alloc&) {
         fail("it needs more memory than is available, or than its faces and points justify");
     } catch (const std::length_error&) {

@@ -30,6 +30,7 @@ struct DracoMesh {
     std::size_t points = 0;
     std::vector<Index> triangles; ///< three points each
     std::vector<DracoColumn> columns;
+    std::size_t metadata = 0; ///< entries of metadata other than names of columns, which are not read
 };
 
 /// True when the bytes begin with Draco's magic number.

@@ -100,4 +100,21 @@ TEST_CASE("names go on request, not those that something is looked up by", "[io]
           std::string::npos);
 }
 
+TEST_CASE("default members of materials go", "[io]") {
+    Json json = Json::parse(
+        R"({"extensions":{},"samplers":[{"wrapS":10497,"wrapT":33071}],"materials":[{"name":"a",
+        "pbrMetallicRoughness":{"baseColorFactor":[1.0,1.0,1.0,1.0],"metallicFactor":0,"roughnessFactor":1.0},
+        "emissiveFactor":[0,0,0],"alphaMode":"OPAQUE","doubleSided":false},
+        {"pbrMetallicRoughness":{"metallicFactor":1},"alphaMode":"MASK","alphaCutoff":0.25,
+        "normalTexture":{"index":0,"texCoord":0,"scale":1,"extensions":{"KHR_texture_transform":
+        {"offset":[0,0],"rotation":0.5,"scale":[1,1],"texCoord":0}}},"extras":{"alphaMode":"OPAQUE"}}]})");
+    io::gltf::shorten(json, {});
+    CHECK_FALSE(json.contains("extensions"));
+    CHECK(json["samplers"][0].dump() == R"({"wrapT":33071})");
+    CHECK(json["materials"][0].dump() == R"({"name":"a","pbrMetallicRoughness":{"metallicFactor":0}})");
+    CHECK(json["materials"][1].dump() ==
+          R"({"alphaMode":"MASK","alphaCutoff":0.25,"normalTexture":{"index":0,"extensions":)"
+          R"({"KHR_texture_transform":{"rotation":0.5,"texCoord":0}}},"extras":{"alphaMode":"OPAQUE"}})");
+}
+
 } // namespace shorten_test
