@@ -54,6 +54,19 @@ void add_transform(const aiMatrix4x4& m, double unit, Json& node) {
         node["scale"] = {size.x, size.y, size.z};
 }
 
+aiMatrix4x4 world_of(const aiNode* node) {
+    aiMatrix4x4 world;
+    for (; node; node = node->mParent) world = node->mTransformation * world;
+    return world;
+}
+
+/// The matrix from a mesh to a bone; where the reader of assimp lost it (COLLADA without bind_shape_matrix),
+/// the one of the rest pose.
+aiMatrix4x4 bind_of(const aiBone& bone, const aiNode& mesh, const aiScene& scene) {
+    if (bone.mOffsetMatrix.Determinant() != 0) return bone.mOffsetMatrix;
+    return world_of(scene.mRootNode->FindNode(bone.mName)).Inverse() * world_of(&mesh);
+}
+
 /// Properties that programs and people stored with a node.
 Json extras_of(const aiMetadata* data) {
     Json extras = Json::object();
@@ -346,7 +359,7 @@ int Nodes::skin(const aiNode& node, const Ints& parts) {
             if (at == animated_.by_name.end() || name.empty())
                 notes_.warn("a bone without a node is dropped");
             else
-                add(name, at->second, mesh.mBones[b]->mOffsetMatrix);
+                add(name, at->second, bind_of(*mesh.mBones[b], node, scene_));
         }
     }
     if (list.empty()) return -1;
