@@ -1,5 +1,6 @@
 #include "platform/file_names.hpp"
 
+#include "platform/temporary_files.hpp"
 #include "platform/windows/last_error.hpp"
 
 #include <algorithm>
@@ -43,6 +44,18 @@ bool rename_over_open_file(const fs::path& from, const fs::path& to) {
     return done;
 }
 
+/// Moves an open file away first, for file systems that cannot replace it. Others keep reading the old file.
+bool rename_after_moving_away(const fs::path& from, const fs::path& to) {
+    const fs::path aside = to.parent_path() / temporary_name(to, static_cast<int>(::GetTickCount() | 1U));
+    if (!::MoveFileExW(to.c_str(), aside.c_str(), 0)) return false;
+    if (!::MoveFileExW(from.c_str(), to.c_str(), 0)) {
+        ::MoveFileExW(aside.c_str(), to.c_str(), 0);
+        return false;
+    }
+    ::DeleteFileW(aside.c_str());
+    return true;
+}
+
 } // namespace
 
 bool rename_file(const fs::path& from, const fs::path& to) noexcept try {
@@ -54,6 +67,8 @@ bool rename_file(const fs::path& from, const fs::path& to) noexcept try {
         if (::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_REPLACE_EXISTING)) return true;
         const DWORD error = ::GetLastError();
         const bool is_busy = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED;
+        if (is_busy && rename_after_moving_away(from, to)) return true;
+        ::SetLastError(error);
         if (!is_busy || attempt == attempts) return failed_by_last_error();
         ::Sleep(pause);
     }
