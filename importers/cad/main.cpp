@@ -242,14 +242,16 @@ void Assembly::triangulate(const TDF_LabelSequence& roots, const Options& option
 /// Open CASCADE exceeds its deflection on spheres and the like: divides again, more finely, until it holds.
 void Assembly::refine(const TopoDS_Shape& shape) {
     IMeshTools_Parameters how = how_;
-    constexpr int most_tries = 5;
-    double found = deviation_of(shape);
-    for (int tries = 0; tries < most_tries && found > how_.Deflection; ++tries) {
-        constexpr double least_step = 0.25, largest_step = 0.75;
+    constexpr int most_tries = 3;
+    double found = deviation_of(shape), before = 2 * found;
+    // Faces of bad parameters do not improve, and must not get ever more triangles.
+    constexpr double improves = 0.9, least_step = 0.5, largest_step = 0.75;
+    for (int tries = 0; tries < most_tries && found > how_.Deflection && found < improves * before; ++tries) {
         how.Deflection *= std::clamp(how_.Deflection / found, least_step, largest_step);
         how.DeflectionInterior = how.Deflection;
         BRepTools::Clean(shape);
         BRepMesh_IncrementalMesh run(shape, how);
+        before = found;
         found = deviation_of(shape);
     }
     if (found > how_.Deflection) notes_.warn("some faces deviate more than max_deviation");
