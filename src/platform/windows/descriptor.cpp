@@ -1,12 +1,7 @@
 #include "platform/descriptor.hpp"
 
+#include "platform/windows/handle.hpp"
 #include "platform/windows/last_error.hpp"
-
-#include <cerrno>
-#include <cstdint>
-#include <fcntl.h>
-#include <io.h>
-#include <windows.h>
 
 namespace facetmill {
 
@@ -49,11 +44,7 @@ Descriptor open_file(const std::filesystem::path& path, const OpenOptions& optio
         failed_by_last_error();
         return {};
     }
-    constexpr int no_translation = _O_BINARY | _O_NOINHERIT;
-    Descriptor file(::_open_osfhandle(reinterpret_cast<std::intptr_t>(handle),
-                                      no_translation | (options.appends ? _O_APPEND : 0)));
-    if (!file) ::CloseHandle(handle);
-    return file;
+    return descriptor_of(handle, options.appends ? _O_APPEND : 0);
 }
 
 Descriptor duplicate(const Descriptor& file) { return Descriptor(::_dup(file.number())); }

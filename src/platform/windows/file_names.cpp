@@ -46,7 +46,8 @@ bool rename_over_open_file(const fs::path& from, const fs::path& to) {
 
 /// Moves an open file away first, for file systems that cannot replace it. Others keep reading the old file.
 bool rename_after_moving_away(const fs::path& from, const fs::path& to) {
-    const fs::path aside = to.parent_path() / temporary_name(to, static_cast<int>(::GetTickCount() | 1U));
+    const fs::path aside =
+        to.parent_path() / temporary_name(to, static_cast<int>(::GetTickCount() & 0x7fffffffU) | 1);
     if (!::MoveFileExW(to.c_str(), aside.c_str(), 0)) return false;
     if (!::MoveFileExW(from.c_str(), to.c_str(), 0)) {
         ::MoveFileExW(aside.c_str(), to.c_str(), 0);

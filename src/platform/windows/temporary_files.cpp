@@ -1,14 +1,11 @@
 #include "platform/temporary_files.hpp"
 
 #include "platform/file_names.hpp"
+#include "platform/windows/handle.hpp"
 #include "platform/windows/last_error.hpp"
 
 #include <cerrno>
-#include <cstdint>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <io.h>
-#include <windows.h>
 
 namespace facetmill {
 
@@ -20,9 +17,7 @@ Descriptor unnamed_file(const fs::path& folder) {
         const HANDLE handle = ::CreateFileW(
             path.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, CREATE_NEW,
             FILE_ATTRIBUTE_TEMPORARY | FILE_ATTRIBUTE_HIDDEN | FILE_FLAG_DELETE_ON_CLOSE, nullptr);
-        if (handle != INVALID_HANDLE_VALUE)
-            return Descriptor(
-                ::_open_osfhandle(reinterpret_cast<std::intptr_t>(handle), _O_BINARY | _O_NOINHERIT));
+        if (handle != INVALID_HANDLE_VALUE) return descriptor_of(handle);
         failed_by_last_error();
         if (errno != EEXIST) return {};
     }
