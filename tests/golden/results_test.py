@@ -95,6 +95,7 @@ RUNS = [
     "load open.off ! align cubes.obj ! transfer cubes.obj",
     "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
     "generate torus ! wrap 10%",
+    "generate cube --unit mm ! unwrap --texels_per_m 20000 --set 1",
     "load AnimatedMorphCube.gltf ! split ! simplify 50%",
     "load mapped.gltf ! fit f.glb --look 20% --pixels 64",
     "generate cube --unit mm ! tile --fit .6mm --pegs .1mm ! nest 20mm",
