@@ -36,7 +36,7 @@ STAGES = ["align FILE", "clean", "clean --hidden --smaller_than 1%", "clean --we
           "measure", "merge", "normals", "normals keep", "optimize", "orient", "probe 0,0,0", "relax 3", "relax --method implicit", "remesh 2%", "remesh --tolerance 1%", "render view.png",
           "section z=50%", "separate", "simplify 50%", "simplify --max_error 1%", "simplify 10% --method cluster",
           "split midpoint", "split --max_edge 5%", "textures 64 --format webp", "thicken 1%", "thicken 1% --mode edges", "tile 50%",
-          "transfer FILE", "transform --scale 2", "triangulate", "triangulate quads", "two-sided", "validate --faces.min 0", "wrap 5%",
+          "transfer FILE", "transform --scale 2", "triangulate", "triangulate quads", "two-sided", "unwrap 512", "validate --faces.min 0", "wrap 5%",
           "write out.glb", "write out.glb --draco", "write out.ply", "write out.stl", "write out.obj", "write out.off"]
 # Stages that may leave nothing, or little: a plane may miss the half that has the mesh.
 TAKES = {"clip", "combine", "crop", "generate", "hull", "section", "tile", "transform", "wrap"}

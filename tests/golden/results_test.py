@@ -111,6 +111,7 @@ RUNS = [
     "generate sphere ! hull box ! hull sphere ! hull capsule ! hull --max_vertices 20 --engine unreal",
     "generate torus ! wrap 10%",
     "load textured.gltf ! bake 16 --samples 2 --height h.png --thickness t.png ! look 50% --pixels 32 --path l.png",
+    "generate cube --unit mm ! unwrap --texels_per_m 20000",
     "load AnimatedMorphCube.gltf ! split ! simplify 50%",
     "load mapped.gltf ! fit f.glb --look 20% --pixels 64",
     "generate cube --unit mm ! tile --fit .6mm --pegs .1mm ! nest 20mm",

@@ -106,6 +106,24 @@ Mesh mapped_grid() {
     return mesh;
 }
 
+/// The grid with its image upright, as v runs down in glTF.
+Mesh upright_grid(double left, double width) {
+    Mesh mesh = mapped_grid();
+    Attribute& uv = mesh.attributes.back();
+    for (std::size_t w = 0; w < uv.size(); ++w) {
+        uv.set_value(w, 0, left + width * uv.value(w, 0));
+        uv.set_value(w, 1, 1 - uv.value(w, 1));
+    }
+    return mesh;
+}
+
+/// Two grids whose charts are apart by a gap in the texture.
+Mesh two_charts(double gap) {
+    Mesh all = upright_grid(0, 0.25);
+    append(all, upright_grid(0.25 + gap, 0.25));
+    return all;
+}
+
 Scene in_unit(Unit unit, UpAxis up) {
     Scene scene = scene_of(shapes::cube());
     scene.unit = unit;
@@ -191,7 +209,7 @@ Mesh two_cubes(double gap) {
 
 std::vector<Row> shapes_and_attributes() {
     using namespace shapes;
-    const Mesh small = scaled(cube(), 0.25);
+    const Mesh small = scaled(cube(), 0.25), uneven = with_value("TEXCOORD_0", 3, 0, 9);
     return {{"min_angle: {min: 50deg}", scene_of(cube()), scene_of(octahedron())},
             {"max_angle: {max: 1.4rad}", scene_of(cube()), scene_of(octahedron())},
             {"aspect_ratio: {max: 1.2}", scene_of(cube()), scene_of(octahedron())},
@@ -204,6 +222,9 @@ std::vector<Row> shapes_and_attributes() {
             {"component_size: {min: 0.5}", scene_of(small), scene_of(cube())},
             {"uvs_in_range: true", scene_of(with_value("TEXCOORD_0", 3, 0, 1.5)), scene_of(uv_cube())},
             {"uv_overlaps: 0", scene_of(uv_cube()), scene_of(mapped_grid())},
+            {"mirrored_uvs: 0", scene_of(mapped_grid()), scene_of(upright_grid(0, 1))},
+            {"texel_density_ratio: {max: 2}", scene_of(uneven), scene_of(uv_cube())},
+            {"uv_gap: {min: 0.1}", scene_of(two_charts(0.0625)), scene_of(two_charts(0.125))},
             {"finite_attributes: true", scene_of(with_value("NORMAL", 7, 1, NAN)), scene_of(uv_cube())},
             {"unit_normals: true", scene_of(with_value("NORMAL", 7, 1, 5)), scene_of(uv_cube())},
             {"weights_normalized: true", scene_of(with_weights(0.5)), scene_of(with_weights(0.25))},

@@ -49,6 +49,14 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 /// attribute. Exact. Faces that only touch, or have no area in the texture, do not count.
 [[nodiscard]] std::optional<Pairs> uv_overlaps(const Mesh& mesh);
 
+// In uv_charts.cpp, for TEXCOORD_0:
+/// The faces on which the image is mirrored, ascending. Exact.
+[[nodiscard]] std::vector<Index> mirrored_faces(const Mesh& mesh);
+[[nodiscard]] std::optional<double> count_mirrored_faces(const Measured& mesh);
+[[nodiscard]] std::optional<double> texel_density_ratio(const Measured& mesh);
+/// The smallest distance between the borders of two charts; none with fewer than two charts.
+[[nodiscard]] std::optional<double> smallest_uv_gap(const Measured& mesh);
+
 // In locations.cpp, see Property::locations:
 [[nodiscard]] std::vector<Location> uncancelled_edges(const Mesh& mesh, const LocationQuery& query);
 [[nodiscard]] std::vector<Location> crowded_edges(const Mesh& mesh, const LocationQuery& query);

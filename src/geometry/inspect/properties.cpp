@@ -88,6 +88,7 @@ constexpr const char* clean_removes = "use clean to remove them";
 constexpr const char* untangles =
     "use clean: {self_intersections: all} to unite or replace intersecting faces";
 constexpr const char* cuts_to_size = "use transform to move and scale, or clip and crop to cut";
+constexpr const char* makes_uvs = "use unwrap to make new texture coordinates";
 constexpr const char* no_stage = "no stage changes this, so correct it in the program that made the mesh";
 
 // Constant, so that stages can be declared from the table before main.
@@ -483,7 +484,8 @@ constexpr Property table[] = {
      .counts_locations = true},
     {.name = "uv_overlaps",
      .help = "Pairs of faces that overlap in the first set of texture coordinates. The test is exact.",
-     .hint = no_stage,
+     .hint = makes_uvs,
+     .mend = "unwrap",
      .measure =
          [](const Measured& m) {
              const auto overlaps = uv_overlaps(m.local);
@@ -493,6 +495,37 @@ constexpr Property table[] = {
          [](const Mesh& m, const LocationQuery& q) {
              return locations_of_pairs(m, uv_overlaps(m).value_or(Pairs{}), q.limit);
          }},
+    {.name = "mirrored_uvs",
+     .also_called = "inverted_uvs flipped_uvs",
+     .help = "Faces that show the image of the first set of texture coordinates mirrored. The test is exact.",
+     .hint = makes_uvs,
+     .mend = "unwrap",
+     .measure = count_mirrored_faces,
+     .locations =
+         [](const Mesh& m, const LocationQuery& q) {
+             auto faces = mirrored_faces(m);
+             faces.resize(std::min(faces.size(), q.limit));
+             return locations_of_faces(m, faces);
+         }},
+    {.name = "texel_density_ratio",
+     .also_called = "texel_density pixel_density",
+     .kind = Kind::number,
+     .join = Join::most,
+     .help = "The highest texel density over the lowest, in the first set of texture coordinates. The "
+             "hundredth of the surface with the highest and with the lowest density does not count.",
+     .hint = makes_uvs,
+     .mend = "unwrap",
+     .measure = texel_density_ratio,
+     .lowest = 1},
+    {.name = "uv_gap",
+     .also_called = "uv_gutter gutter padding uv_margin",
+     .kind = Kind::number,
+     .join = Join::least,
+     .help = "The smallest distance between two charts of the first set of texture coordinates, as a share "
+             "of the texture: 4 texels of 1024 are 0.0039.",
+     .hint = "use unwrap: {gutter: 8} to make new texture coordinates with larger gaps",
+     .mend = "unwrap",
+     .measure = smallest_uv_gap},
     {.name = "finite_attributes",
      .kind = Kind::truth,
      .join = Join::all,

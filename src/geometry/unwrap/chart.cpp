@@ -101,11 +101,37 @@ void FlatChart::start_from(const Gluing& gluing) {
     for (std::size_t p = 0; p < points_.size(); ++p) points_[p] = points_[p] * (1 / count[p]);
 }
 
+void FlatChart::pull_rigidly(const std::vector<double>& weights, Eigen::MatrixX2d& right) const {
+    right.setZero();
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        // The rotation that is nearest to the map of the triangle.
+        double c = 0, s = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 from = shape(i).edge(k), to = corner(i, (k + 1) % 3) - corner(i, k);
+            c += weights[3 * i + k] * dot(from, to);
+            s += weights[3 * i + k] * cross(from, to);
+        }
+        const double r = std::sqrt(c * c + s * s);
+        c = r > 0 ? c / r : 1;
+        s = r > 0 ? s / r : 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec2 e = shape(i).edge(k) * weights[3 * i + k];
+            const Vec2 turned{c * e.x - s * e.y, s * e.x + c * e.y};
+            const auto a = static_cast<Eigen::Index>(corners_[3 * i + k]),
+                       b = static_cast<Eigen::Index>(corners_[3 * i + (k + 1) % 3]);
+            right(a, 0) -= turned.x;
+            right(a, 1) -= turned.y;
+            right(b, 0) += turned.x;
+            right(b, 1) += turned.y;
+        }
+    }
+}
+
 void FlatChart::relax(int rounds) {
     if (faces_.size() == 1) return;
     const auto n = static_cast<Eigen::Index>(points_.size());
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(12 * faces_.size() + 1);
+    entries.reserve(9 * faces_.size() + 1);
     std::vector<double> weights(corners_.size());
     double edges = 0;
     for (std::size_t i = 0; i < faces_.size(); ++i)
@@ -127,29 +153,7 @@ void FlatChart::relax(int rounds) {
     const double still = settled * edges / static_cast<double>(corners_.size());
     Eigen::MatrixX2d right(n, 2), solved;
     for (int round = 0; round < rounds; ++round) {
-        right.setZero();
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            // The rotation that is nearest to the map of the triangle.
-            double c = 0, s = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec2 from = shape(i).edge(k), to = corner(i, (k + 1) % 3) - corner(i, k);
-                c += weights[3 * i + k] * dot(from, to);
-                s += weights[3 * i + k] * cross(from, to);
-            }
-            const double r = std::sqrt(c * c + s * s);
-            c = r > 0 ? c / r : 1;
-            s = r > 0 ? s / r : 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec2 e = shape(i).edge(k) * weights[3 * i + k];
-                const Vec2 turned{c * e.x - s * e.y, s * e.x + c * e.y};
-                const auto a = static_cast<Eigen::Index>(corners_[3 * i + k]),
-                           b = static_cast<Eigen::Index>(corners_[3 * i + (k + 1) % 3]);
-                right(a, 0) -= turned.x;
-                right(a, 1) -= turned.y;
-                right(b, 0) += turned.x;
-                right(b, 1) += turned.y;
-            }
-        }
+        pull_rigidly(weights, right);
         right(0, 0) += held.x;
         right(0, 1) += held.y;
         solved = solver.solve(right);

@@ -3,6 +3,7 @@
 
 #include "geometry/unwrap/surface.hpp"
 
+#include <Eigen/Core>
 #include <array>
 
 namespace facetmill::unwrap_room {
@@ -53,6 +54,8 @@ class FlatChart {
 
   private:
     void find_border(const Gluing& gluing);
+    /// The right side of the global step: every triangle turned rigidly.
+    void pull_rigidly(const std::vector<double>& weights, Eigen::MatrixX2d& right) const;
     const FlatShape& shape(std::size_t place) const { return surface_.shapes[faces_[place]]; }
     Vec2 corner(std::size_t place, std::size_t i) const { return points_[corners_[3 * place + i]]; }
     /// Twice the area of a triangle in the texture.

@@ -11,8 +11,13 @@ namespace {
 
 /// The gap between two charts that are placed side by side, as a share of the side of the smaller.
 constexpr double widest_gap = 0.15;
-/// The least share of its convex hull that a joined chart fills.
-constexpr double least_solid = 0.5;
+/// The least share of its convex hull that a joined chart fills, so that it packs well; less for charts
+/// below this share of the whole area, whose gaps hardly count.
+constexpr double least_solid = 0.7, least_solid_small = 0.55, small_share = 0.03;
+/// Joined charts with more than this share of the whole area must fill this much of their rectangle.
+constexpr double large_share = 0.2, least_filled = 0.75;
+/// The longest side of a joined chart, as a share of the side of a square with the whole area.
+constexpr double longest_side = 0.9;
 constexpr int rounds_joined = 6;
 
 /// A piece of the border between two charts, seen from the lower one.
@@ -45,6 +50,7 @@ class Joiner {
         number_.resize(charts_.size());
         for (Index i = 0; i < charts_.size(); ++i) {
             number_[i] = next_number_++;
+            whole_area_ += charts_[i].measure.area;
             for (const Index f : charts_[i].faces) chart_of_[f] = i;
         }
     }
@@ -270,7 +276,7 @@ class Joiner {
             joined.measure = flat.measure();
         }
         if (!joined.measure.valid || joined.measure.stretch.l2 > max_stretch_ ||
-            !is_solid(flat, joined.measure.area))
+            !packs_well(flat, joined.measure.area))
             return {};
         flat.store(gluing_);
         for (const BorderEdge& e : flat.border())
@@ -278,11 +284,25 @@ class Joiner {
         return joined;
     }
 
-    static bool is_solid(FlatChart& flat, double area) {
+    /// Whether the chart can be packed well.
+    bool packs_well(FlatChart& flat, double area) const {
         std::vector<Vec2> points;
         points.reserve(flat.border().size());
         for (const BorderEdge& e : flat.border()) points.push_back(flat.points()[e.from]);
-        return area >= least_solid * polygon::signed_area(convex_hull_of(std::move(points)));
+        const std::vector<Vec2> hull = convex_hull_of(std::move(points));
+        const double share = area / whole_area_;
+        if (area < (share < small_share ? least_solid_small : least_solid) * polygon::signed_area(hull))
+            return false;
+        const Vec2 u = axis_of_smallest_rectangle(hull);
+        Vec2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+        for (const Vec2& h : hull) {
+            const Vec2 q{dot(u, h), cross(u, h)};
+            low = {std::min(low.x, q.x), std::min(low.y, q.y)};
+            high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+        }
+        const Vec2 size = high - low;
+        if (size.x > longest_side * std::sqrt(whole_area_)) return false;
+        return share < large_share || area >= least_filled * size.x * size.y;
     }
 
     const UnwrapSurface& surface_;
@@ -291,6 +311,7 @@ class Joiner {
     Gluing& gluing_;
     std::vector<Index> chart_of_; ///< [faces]
     std::vector<Index> number_;   ///< [charts] changes when the chart grows
+    double whole_area_ = 0;
     Index next_number_ = 0;
     std::vector<SharedEdge> shared_;
     std::unordered_set<std::uint64_t> failed_; ///< pairs that did not pass; only looked up

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t most_cells = 4096; // along the side of the square
 constexpr std::size_t most_texels = 16384;
 constexpr double tall = 1.5; // heights above this share of the width need not be exact
-constexpr int search_rounds = 8;
-constexpr double close = 1.01; // the ratio of scales at which the search ends
+/// Few charts are packed in several orders and to a finer scale, since it takes little time.
+constexpr std::size_t few_charts = 300;
 
 /// The largest size of charts that are tried at every height; larger charts skip some.
 constexpr std::size_t fine_steps = 32;
@@ -94,12 +94,17 @@ class Strip {
     CellMask turned_[4];
 };
 
-std::vector<Index> largest_first(const std::vector<PackItem>& items) {
+enum class Order { by_length, by_area, by_height };
+
+std::vector<Index> largest_first(const std::vector<PackItem>& items, Order by) {
     std::vector<Index> order(items.size());
     std::iota(order.begin(), order.end(), Index{0});
+    const auto first = [&](const PackItem& p) {
+        return by == Order::by_length ? p.size.x : by == Order::by_area ? p.area : p.size.y;
+    };
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
         const PackItem &p = items[a], &q = items[b];
-        if (p.size.x != q.size.x) return p.size.x > q.size.x;
+        if (first(p) != first(q)) return first(p) > first(q);
         return p.area != q.area ? p.area > q.area : a < b;
     });
     return order;
@@ -109,8 +114,8 @@ std::vector<Index> largest_first(const std::vector<PackItem>& items) {
     throw Error(
         ErrorKind::limit, "E-UNWRAP-FULL",
         s.texels_per_unit > 0
-            ? fmt::format("unwrap: {} charts at {:.6g} texels per unit need more than {} texels",
-                          grouped(charts), s.texels_per_unit, grouped(texture))
+            ? fmt::format("unwrap: {} charts at this texel density need more than {} x {} texels",
+                          grouped(charts), texture, texture)
             : fmt::format("unwrap: {} charts do not fit into {} x {} texels with a gutter of {}",
                           grouped(charts), texture, texture, s.gutter),
         s.texels_per_unit > 0
@@ -121,8 +126,8 @@ std::vector<Index> largest_first(const std::vector<PackItem>& items) {
 
 class Packer {
   public:
-    Packer(const std::vector<PackItem>& items, const UnwrapSettings& settings)
-        : items_(items), settings_(settings), order_(largest_first(items)) {
+    Packer(const std::vector<PackItem>& items, const UnwrapSettings& settings, Order order)
+        : items_(items), settings_(settings), order_(largest_first(items, order)) {
         for (const PackItem& item : items) {
             area_ += item.area;
             longest_ = std::max(longest_, item.size.x);
@@ -131,10 +136,14 @@ class Packer {
 
     Packing into_square(std::size_t texture) {
         use(texture);
+        if (!can_fit()) fail(items_.size(), texture, settings_);
         double fits = 0, fails = HUGE_VAL;
         double scale = static_cast<double>(side_) * std::sqrt(0.6 / area_);
         scale = std::min(scale, static_cast<double>(side_) / (0.72 * longest_));
         Packing best;
+        const bool few = items_.size() <= few_charts;
+        const int search_rounds = few ? 12 : 7;
+        const double close = few ? 1.004 : 1.01; // ratio of scales at which the search ends
         for (int round = 0; round < 40; ++round) {
             Packing packing;
             const std::size_t height = pack(scale, packing.items);
@@ -164,6 +173,7 @@ class Packer {
         for (std::size_t texture = 16; texture <= most_texels; texture *= 2) {
             if (static_cast<double>(texture) < least) continue;
             use(texture);
+            if (!can_fit()) continue;
             Packing packing;
             packing.scale = texels / static_cast<double>(cell_);
             if (pack(packing.scale, packing.items) > side_) continue;
@@ -179,6 +189,12 @@ class Packer {
         cell_ = (texture + most_cells - 1) / most_cells;
         side_ = texture / cell_;
         gutter_ = (settings_.gutter + cell_ - 1) / cell_;
+    }
+
+    /// Every chart takes at least a cell and its gutter.
+    bool can_fit() const {
+        const auto cells = static_cast<double>(gutter_ + 1), side = static_cast<double>(side_ + gutter_);
+        return static_cast<double>(items_.size()) * cells * cells <= side * side;
     }
 
     std::size_t pack(double scale, std::vector<PackedItem>& placed) {
@@ -208,9 +224,19 @@ Vec2 Packing::place(const PackedItem& item, const Vec2& point) const {
 }
 
 Packing pack(const std::vector<PackItem>& items, const UnwrapSettings& settings) {
-    Packer packer(items, settings);
-    return settings.texels_per_unit > 0 ? packer.at_density(settings.texels_per_unit)
-                                        : packer.into_square(settings.texture);
+    if (settings.texels_per_unit > 0)
+        return Packer(items, settings, Order::by_length).at_density(settings.texels_per_unit);
+    std::vector<Order> orders{Order::by_length};
+    if (items.size() <= few_charts) orders = {Order::by_length, Order::by_area, Order::by_height};
+    std::vector<Packing> packings(orders.size());
+    parallel_for(
+        orders.size(),
+        [&](std::size_t i) {
+            packings[i] = Packer(items, settings, orders[i]).into_square(settings.texture);
+        },
+        1);
+    return *std::max_element(packings.begin(), packings.end(),
+                             [](const Packing& a, const Packing& b) { return a.scale < b.scale; });
 }
 
 } // namespace facetmill::unwrap_room

@@ -26,7 +26,6 @@ void add_positions(UnwrapSurface& s, std::span<const UnwrapInput> inputs) {
     resize_large(s.corner_vertex, corners);
     resize_large(s.twin, corners, none);
     std::size_t vertex = 0, corner = 0;
-    Box box;
     s.mesh_begin.push_back(0);
     for (const UnwrapInput& in : inputs) {
         const Mesh& mesh = *in.mesh;
@@ -41,9 +40,13 @@ void add_positions(UnwrapSurface& s, std::span<const UnwrapInput> inputs) {
         corner += mesh.corner_count();
         s.mesh_begin.push_back(static_cast<Index>(corner / 3));
     }
-    box = box_of(s.positions);
-    const Vec3 centre = box.empty() ? Vec3{} : box.centre();
-    parallel_for(vertices, [&](std::size_t v) { s.positions[v] -= centre; });
+    // Halves first, because sums of huge coordinates may overflow.
+    const Box box = box_of(s.positions);
+    const Vec3 centre = box.empty() ? Vec3{} : box.min * 0.5 + box.max * 0.5;
+    const Vec3 half = box.empty() ? Vec3{} : box.max * 0.5 - box.min * 0.5;
+    const double longest = std::max({half.x, half.y, half.z}), factor = 1 / longest;
+    if (longest > 0 && std::isfinite(factor)) s.unit = longest;
+    parallel_for(vertices, [&](std::size_t v) { s.positions[v] = (s.positions[v] - centre) * (1 / s.unit); });
 }
 
 /// Finds the neighbours over edges of exactly two faces that agree in orientation.

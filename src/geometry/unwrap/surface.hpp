@@ -31,6 +31,7 @@ struct UnwrapSurface {
     std::vector<FlatShape> shapes;     ///< [faces] thin triangles are given a height
     std::vector<std::uint8_t> is_thin; ///< [faces]
     std::vector<Index> mesh_begin;     ///< [meshes + 1] the first face of each mesh
+    double unit = 1;                   ///< the length in the world of 1
     double edge_unit = 1;              ///< length that faces without any area get
 
     std::size_t face_count() const { return area_vectors.size(); }

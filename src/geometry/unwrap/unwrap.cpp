@@ -114,7 +114,8 @@ void measure_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const Ch
                     const std::vector<FlatItem>& flat, const Packing& packing) {
     layout.charts = set.charts.size();
     layout.texture = packing.texture;
-    layout.texels_per_unit = packing.scale * static_cast<double>(packing.cell);
+    const double texels = packing.scale * static_cast<double>(packing.cell);
+    layout.texels_per_unit = texels / surface.unit;
     double squares = 0, area = 0, covered = 0;
     for (const Chart& chart : set.charts) {
         const UnwrapStretch& s = chart.measure.stretch;
@@ -125,11 +126,11 @@ void measure_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const Ch
     }
     layout.stretch.l2 = area > 0 ? std::sqrt(squares / area) : 1;
     for (const FlatItem& f : flat) covered += f.item.area;
-    const double side = static_cast<double>(packing.texture) / layout.texels_per_unit;
+    const double side = static_cast<double>(packing.texture) / texels;
     layout.used = covered / (side * side);
     for (Index c = 0; c < surface.twin.size(); ++c)
         if (surface.twin[c] != none && c < surface.twin[c] && !set.gluing.glued[c])
-            layout.cut_length += surface.edge_length(c);
+            layout.cut_length += surface.edge_length(c) * surface.unit;
     for (const std::uint8_t thin : surface.is_thin) layout.thin_faces += thin;
 }
 
@@ -155,7 +156,9 @@ UnwrapLayout unwrap(std::span<const UnwrapInput> inputs, const UnwrapSettings& s
         flat.size(), [&](std::size_t i) { flat[i] = item_of(surface, set.gluing, set.charts[i]); }, 16);
     Packing packing;
     if (!flat.empty()) {
-        packing = pack(pack_items(flat), settings);
+        UnwrapSettings scaled = settings;
+        scaled.texels_per_unit *= surface.unit;
+        packing = pack(pack_items(flat), scaled);
         measure_layout(layout, surface, set, flat, packing);
         steps.next();
         place_items(flat, packing);

@@ -3,11 +3,14 @@
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/gltf/optimize/document_optimizer.hpp"
 #include "options/mark_at.hpp"
 #include "stage/stage.hpp"
 #include "stages/unwrap/help.hpp"
 
 #include <fmt/format.h>
+#include <map>
+#include <set>
 
 namespace facetmill::unwrap_stage {
 
@@ -98,6 +101,53 @@ void drop_tangents(Part& part, Context& context) {
                                       "depends on the texture coordinates"}});
 }
 
+/// The materials of documents that parts use: selected parts, or the others.
+std::set<Index> materials_of(const Scene& scene, const Context& context, bool selected) {
+    std::set<Index> used;
+    for (const Part& part : scene.parts) {
+        if (context.selects(part, scene) != selected) continue;
+        for (const Primitive& p : part.mesh.primitives)
+            if (p.material < scene.materials.size() && scene.materials[p.material].document >= 0)
+                used.insert(p.material);
+    }
+    return used;
+}
+
+/// With keep, textures follow the set that they use. Otherwise, warns about textures that no longer fit.
+void settle_textures(Scene& scene, const UnwrapOptions& o, Context& context) {
+    const std::set<Index> others = materials_of(scene, context, false);
+    std::map<int, io::DocumentOptimizer> documents;
+    std::vector<std::string> misfits;
+    for (const Index m : materials_of(scene, context, true)) {
+        const Material& material = scene.materials[m];
+        const auto index = static_cast<std::size_t>(material.index);
+        auto& document =
+            documents
+                .try_emplace(material.document, *scene.documents[static_cast<std::size_t>(material.document)])
+                .first->second;
+        const std::set<int> uvs = document.needs_of(index).uvs;
+        const bool fits = o.keep ? uvs.lower_bound(static_cast<int>(o.set)) == uvs.end()
+                                 : !uvs.contains(static_cast<int>(o.set));
+        if (fits) continue;
+        if (o.keep && !others.contains(m))
+            document.move_uvs_up(index, static_cast<int>(o.set));
+        else
+            misfits.push_back(material.name);
+    }
+    for (auto& [number, document] : documents) {
+        auto& place = scene.documents[static_cast<std::size_t>(number)];
+        if (o.keep) place = document.finish(place);
+    }
+    if (misfits.empty()) return;
+    context.warn("W-UNWRAP-TEXTURES",
+                 fmt::format("unwrap: {} made for other texture coordinates: {}",
+                             misfits.size() == 1 ? "the textures of a material were"
+                                                 : "the textures of some materials were",
+                             fmt::join(misfits, ", ")),
+                 o.keep ? "unwrap all parts that use the material together"
+                        : "use keep: true, or bake new textures, or remove the textures");
+}
+
 Scene run(Scene scene, const UnwrapOptions& o, Context& context, UnwrapReport& report) {
     const UnwrapSettings settings = settings_of(o, scene);
     std::vector<Part*> parts;
@@ -116,6 +166,7 @@ Scene run(Scene scene, const UnwrapOptions& o, Context& context, UnwrapReport& r
             *parts[i], put_coordinates(parts[i]->mesh, layout.meshes[i], static_cast<int>(o.set), o.keep));
         drop_tangents(*parts[i], context);
     }
+    settle_textures(scene, o, context);
     report = {parts.size(),
               layout.charts,
               layout.texture,

@@ -108,6 +108,8 @@ class DocumentOptimizer {
     /// Assigns the material to all triangles of the mesh.
     void set_material(std::size_t mesh, std::size_t material);
     MaterialNeeds needs_of(std::size_t material) const;
+    /// Lets the textures of a material use the next higher set of texture coordinates, from set `first` on.
+    void move_uvs_up(std::size_t material, int first);
 
     bool numbers_are_known() const { return known_; }
     const TidyCounts& erased() const { return erased_; }

@@ -84,6 +84,24 @@ void collect_uvs(const Json& object, std::set<int>& uvs) {
     }
 }
 
+/// Adds one to the sets that textures anywhere in the object use, from `first` on.
+void move_up(Json& object, int first) {
+    if (!object.is_structured()) return;
+    const auto move = [&](Json& texture) {
+        const int set = texture.value("texCoord", 0);
+        if (set >= first) texture["texCoord"] = set + 1;
+    };
+    for (const auto& [key, value] : object.items()) {
+        if (key == "extras") continue;
+        if (std::string_view(key).ends_with("Texture") && value.is_object() && value.contains("index")) {
+            const Json::json_pointer moved("/extensions/KHR_texture_transform");
+            move(value);
+            if (value.contains(moved) && value[moved].contains("texCoord")) move(value[moved]);
+        }
+        move_up(value, first);
+    }
+}
+
 } // namespace
 
 std::optional<PlainLook> DocumentOptimizer::plain_look(std::size_t material) const {
@@ -149,6 +167,10 @@ std::size_t DocumentOptimizer::add_palette(const std::vector<PlainLook>& looks) 
 void DocumentOptimizer::set_material(std::size_t mesh, std::size_t material) {
     for (Json& primitive : json_.at("meshes").at(mesh)["primitives"])
         if (makes_triangles(JsonCursor(primitive, ""))) primitive["material"] = material;
+}
+
+void DocumentOptimizer::move_uvs_up(std::size_t material, int first) {
+    move_up(json_.at("materials").at(material), first);
 }
 
 MaterialNeeds DocumentOptimizer::needs_of(std::size_t material) const {
