@@ -20,7 +20,7 @@ struct CellMask {
 
 /// Coordinates are moved by this much of a cell, and triangles are widened by it, so that rounding later
 /// leaves them in their cells.
-inline constexpr double cell_slack = 1e-3;
+inline constexpr double cell_slack = 4e-3;
 
 /// All cells that triangles touch. corners: points, three per triangle; coordinates from 0, in cells.
 void touch_cells(const std::vector<Index>& corners, const std::vector<Vec2>& points, double scale,

@@ -148,11 +148,23 @@ void settle_textures(Scene& scene, const UnwrapOptions& o, Context& context) {
                         : "use keep: true, or bake new textures, or remove the textures");
 }
 
+/// glTF numbers the sets of a part from 0, without gaps.
+void require_lower_sets(const Part& part, std::int64_t set) {
+    for (std::int64_t lower = 0; lower < set; ++lower)
+        if (!part.mesh.find(fmt::format("TEXCOORD_{}", lower), Domain::wedge))
+            throw Error(
+                ErrorKind::usage, "E-UNWRAP-SET",
+                fmt::format("unwrap: set {} of part '{}' needs a set {} before it", set, part.name, lower),
+                fmt::format("use set: {}, or unwrap that set first", lower));
+}
+
 Scene run(Scene scene, const UnwrapOptions& o, Context& context, UnwrapReport& report) {
     const UnwrapSettings settings = settings_of(o, scene);
     std::vector<Part*> parts;
     context.for_each_part(scene, [&](Part& part) {
-        if (part.mesh.face_count() > 0) parts.push_back(&part);
+        if (part.mesh.face_count() == 0) return;
+        require_lower_sets(part, o.set);
+        parts.push_back(&part);
     });
     std::vector<UnwrapInput> inputs;
     inputs.reserve(parts.size());
