@@ -35,8 +35,9 @@ double longest_noise(const RemeshSettings& s, const Mesh& mesh) {
 }
 
 /// Refuses a result that is too large, before any work on it.
+constexpr double most_faces = 700e6; // three half edges for each, numbered in 32 bits, and a reserve
+
 void refuse_giant_result(double faces) {
-    constexpr double most_faces = 700e6;   // three half edges for each, numbered in 32 bits, and a reserve
     constexpr double bytes_per_face = 200; // of the working mesh at its largest
     const char* const hint = "give a larger length or tolerance";
     if (!(faces <= most_faces))
@@ -173,12 +174,14 @@ void remesh_until_sound(const Mesh& mesh, const FaceTree& tree, const RemeshSett
         result.retries = retry;
         if (found.count == 0 || result.input_intersects || retry == most_retries) return;
         shorten(sizes, mesh, tree, m, found);
-        laid = lay_out(mesh, settings.feature_angle, longest_noise(settings, mesh));
-        grade(laid.mesh, sizes);
-        laid.mesh.sizes = sizes;
-        laid.mesh.hints.assign(laid.mesh.points.size(), none);
-        result.expected_faces = expected_faces(laid.mesh, sizes);
-        refuse_giant_result(result.expected_faces);
+        LaidOut again = lay_out(mesh, settings.feature_angle, longest_noise(settings, mesh));
+        grade(again.mesh, sizes);
+        const double expected = expected_faces(again.mesh, sizes);
+        if (!(expected <= most_faces)) return; // this result stays, with a warning
+        again.mesh.sizes = sizes;
+        again.mesh.hints.assign(again.mesh.points.size(), none);
+        result.expected_faces = expected;
+        laid = std::move(again);
     }
 }
 

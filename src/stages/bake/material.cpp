@@ -48,12 +48,13 @@ const char* alpha_mode(const BakeSource& source, const BakedMaps& maps) {
 
 std::vector<Map> maps_of(const BakeSource& source, const BakedMaps& maps) {
     std::vector<Map> all = {{"baseColorTexture", "base_colour.png", &maps.base}};
-    if (all_unlit(source)) return all;
-    all.push_back({"normalTexture", "normal.png", &maps.normal});
-    const bool plain =
-        is_uniform(maps.surface, 0) && is_uniform(maps.surface, 1) && is_uniform(maps.surface, 2);
-    if (!plain) all.push_back({"metallicRoughnessTexture", "surface.png", &maps.surface});
-    if (maps.glows) all.push_back({"emissiveTexture", "emission.png", &maps.emission});
+    if (!all_unlit(source)) {
+        all.push_back({"normalTexture", "normal.png", &maps.normal});
+        const bool plain =
+            is_uniform(maps.surface, 0) && is_uniform(maps.surface, 1) && is_uniform(maps.surface, 2);
+        if (!plain) all.push_back({"metallicRoughnessTexture", "surface.png", &maps.surface});
+        if (maps.glows) all.push_back({"emissiveTexture", "emission.png", &maps.emission});
+    }
     parallel_for(
         all.size(),
         [&](std::size_t i) { all[i].png = io::encoded_png_quickly(pixels_of(maps, *all[i].rgba)); }, 1);
@@ -80,8 +81,9 @@ Json material_json(const BakeSource& source, const BakedMaps& maps, const std::v
         }
     }
     json["pbrMetallicRoughness"] = std::move(pbr);
-    if (maps.glows) json["emissiveFactor"] = Json::array({1, 1, 1});
-    if (maps.glows && maps.emission_strength > 1)
+    const bool glows = maps.glows && !all_unlit(source);
+    if (glows) json["emissiveFactor"] = Json::array({1, 1, 1});
+    if (glows && maps.emission_strength > 1)
         json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = maps.emission_strength;
     if (all_unlit(source)) json["extensions"]["KHR_materials_unlit"] = Json::object();
     const std::string mode = alpha_mode(source, maps);
