@@ -12,6 +12,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,6 +37,17 @@ void set_limit(decltype(RLIMIT_AS) what, std::uint64_t most) {
     ::setrlimit(what, &limit);
 }
 
+/// Marks descriptors that the caller of facetmill left open, so that the program does not get them.
+void close_others_at_start() {
+    constexpr unsigned first = STDERR_FILENO + 1, close_on_exec = 4; // CLOSE_RANGE_CLOEXEC, Linux 5.11
+    if (::syscall(SYS_close_range, first, ~0U, close_on_exec) == 0) return;
+    rlimit limit{};
+    constexpr rlim_t most = 65536;
+    const rlim_t end = ::getrlimit(RLIMIT_NOFILE, &limit) == 0 ? std::min(limit.rlim_cur, most) : most;
+    for (int number = first; static_cast<rlim_t>(number) < end; ++number)
+        ::fcntl(number, F_SETFD, FD_CLOEXEC);
+}
+
 /// The streams of the child process.
 struct Streams {
     const Descriptor &input, &output, &messages;
@@ -49,6 +61,7 @@ struct Streams {
     ::dup2(streams.input.number(), STDIN_FILENO);
     ::dup2(streams.output.number(), STDOUT_FILENO);
     ::dup2(streams.messages.number(), STDERR_FILENO);
+    close_others_at_start();
     // Text, vectors of pointers, and the sandbox need memory, so limits follow them.
     std::vector<char*> texts;
     const std::string own = settings.program.string();
@@ -102,14 +115,15 @@ class Listener {
         return How::exited;
     }
 
-    /// Whether the program ends by itself before the deadline.
+    /// Whether the program ends by itself before the deadline, while the client waits.
     bool ends(pid_t process, int& status) const {
         for (;;) {
             const pid_t ended = ::waitpid(process, &status, WNOHANG);
-            if (ended == process || (ended < 0 && errno != EINTR)) return true;
-            if (std::chrono::steady_clock::now() > deadline_) return false;
+            if (ended == process || (ended < 0 && errno != EINTR)) return ended == process;
+            pollfd client{socket_.number(), 0, 0};
             constexpr int pause = 2; // milliseconds
-            ::poll(nullptr, 0, pause);
+            ::poll(&client, 1, pause);
+            if (client.revents != 0 || std::chrono::steady_clock::now() > deadline_) return false;
         }
     }
 
@@ -135,6 +149,7 @@ ConfinedEnd run_confined(const ConfinedProgram& settings, const Descriptor& inpu
     ConfinedEnd end;
     Pipe output = Pipe::make(), messages = Pipe::make();
     if (!output.to || !messages.to) return {{How::not_started, errno}};
+    std::signal(SIGCHLD, SIG_DFL); // a caller may have it ignored, and then no exit code could be read
     const pid_t process = ::fork();
     if (process == 0) become(settings, {input, output.to, messages.to});
     if (process < 0) return {{How::not_started, errno}};

@@ -61,10 +61,13 @@ std::string problem_of(const ConfinedEnd& end, const ConfinedProgram& settings) 
     using How = ProgramEnd::How;
     if (end.too_much) return fmt::format("it gave more than {} bytes and was ended", settings.most_output);
     if (end.how == How::late)
-        return fmt::format("it took more than {} s and was ended", settings.limit.count());
+        return fmt::format("it took more than {} s (FACETMILL_IMPORT_SECONDS) and was ended",
+                           settings.limit.count());
     if (end.how == How::deserted) return "it was ended";
     const std::string tail = end.said.empty() ? "" : ": " + end.said;
     if (end.how == How::by_signal) return fmt::format("it crashed (signal {}){}", end.number, tail);
+    constexpr int no_program = 127; // of exec and of the loader
+    if (end.number == no_program) return fmt::format("it or one of its libraries cannot be loaded{}", tail);
     if (end.number != 0) return fmt::format("it failed (exit code {}){}", end.number, tail);
     return {};
 }
@@ -92,7 +95,7 @@ bool serve(const Descriptor& socket, const std::vector<fs::path>& readable) {
     Bytes bytes(order.bytes);
     if (!receive_all(socket, bytes.data(), bytes.size())) return false;
     const Descriptor file = file_in_memory(bytes);
-    bytes = {};
+    bytes = Bytes();
     const auto& known = import::helper_names;
     if (std::find(known.begin(), known.end(), texts.front()) == known.end()) return false;
     const auto program = import::helper_program(texts.front());
