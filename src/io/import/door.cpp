@@ -1,5 +1,6 @@
 #include "io/import/door.hpp"
 
+#include "base/math/numbers.hpp"
 #include "io/flatten.hpp"
 #include "io/import/import.hpp"
 #include "io/packing.hpp"
@@ -136,7 +137,13 @@ WorkerPool& workers() {
 std::uint32_t seconds_allowed() {
     constexpr int usual = 600, most = 86400;
     const char* given = std::getenv("FACETMILL_IMPORT_SECONDS");
-    return static_cast<std::uint32_t>(std::clamp(given ? std::atoi(given) : usual, 1, most));
+    if (!given || !*given) return usual;
+    const auto seconds = parse_integer(given);
+    if (!seconds || *seconds < 1 || *seconds > most)
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    fmt::format("FACETMILL_IMPORT_SECONDS must be between 1 and {}, found '{}'", most, given),
+                    "unset it to allow 600 seconds");
+    return static_cast<std::uint32_t>(*seconds);
 }
 
 bool send_order(const Descriptor& socket, const Input& input, const import::DoorOrder& order) {
