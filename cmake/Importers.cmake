@@ -4,7 +4,7 @@ option(FACETMILL_IMPORT_SCENES "Build facetmill-import-scenes (FBX, COLLADA, 3DS
 option(FACETMILL_IMPORT_CAD "Build facetmill-import-cad (STEP, IGES, BREP) where Open CASCADE is found" ON)
 
 function(add_importer name)
-  add_executable(${name} ${ARGN} importers/helper.cpp src/platform/sandbox.cpp src/platform/file_bytes.cpp
+  add_executable(${name} ${ARGN} importers/helper.cpp src/platform/sandbox.cpp src/platform/file_bytes.cpp src/platform/whole_bytes.cpp
                  src/platform/descriptor.cpp src/platform/file_status.cpp src/platform/file_names.cpp)
   target_include_directories(${name} PRIVATE importers)
   target_link_libraries(${name} PRIVATE facetmill_flags facetmill_sanitizers nlohmann_json::nlohmann_json fmt::fmt PkgConfig::SECCOMP)
@@ -34,7 +34,13 @@ if(FACETMILL_IMPORT_CAD)
     file(GLOB sources CONFIGURE_DEPENDS importers/cad/*.cpp)
     add_importer(facetmill-import-cad ${sources})
     target_include_directories(facetmill-import-cad SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
-    target_link_libraries(facetmill-import-cad PRIVATE TKSTEP TKIGES TKXDESTEP TKXDEIGES TKXCAF TKLCAF TKCAF TKMesh TKXSBase TKBRep TKTopAlgo TKernel)
+    # Open CASCADE 7.8 has its exchange libraries in fewer files.
+    if(OpenCASCADE_VERSION VERSION_LESS 7.8)
+      set(exchange TKSTEP TKIGES TKXDESTEP TKXDEIGES)
+    else()
+      set(exchange TKDESTEP TKDEIGES)
+    endif()
+    target_link_libraries(facetmill-import-cad PRIVATE ${exchange} TKXCAF TKLCAF TKCAF TKMesh TKXSBase TKBRep TKTopAlgo TKernel)
   else()
     message(STATUS "facetmill-import-cad is left out: it needs libocct-data-exchange-dev (tools/deps.sh --imports)")
   endif()
