@@ -1,7 +1,11 @@
 #pragma once
 // Images for textures, as PNG files.
 
+#include "io/images/pixels.hpp"
+
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <zlib.h>
 
@@ -46,5 +50,13 @@ inline std::string png_of(unsigned char colour_type, const std::string& pixel, c
 
 inline std::string red_png() { return png_of(2, "\xff\x10\x10"); }
 inline std::string blue_png() { return png_of(2, "\x10\x10\xff"); }
+
+/// The largest difference of a channel of two images of a size.
+inline int farthest(const io::Pixels& a, const io::Pixels& b) {
+    if (a.rgba.size() != b.rgba.size()) return 256;
+    int most = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
+    return most;
+}
 
 } // namespace facetmill::test

@@ -3,6 +3,7 @@
 #include "io/images/image_faults.hpp"
 #include "io/images/image_files.hpp"
 #include "support/catch.hpp"
+#include "support/images.hpp"
 
 #include <cstdlib>
 
@@ -20,31 +21,19 @@ io::Pixels soft(bool alpha) {
     return image;
 }
 
-int farthest(const io::Pixels& a, const io::Pixels& b) {
-    REQUIRE(a.rgba.size() == b.rgba.size());
-    int most = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
-    return most;
-}
-
-io::Bytes bytes_of(std::string_view text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
 } // namespace
 
 TEST_CASE("AVIF files are known by their brands", "[io]") {
     using namespace std::string_view_literals;
-    CHECK(io::media_type(bytes_of("\0\0\0\x14"
-                                  "ftypavif\0\0\0\0mif1"sv)) == "image/avif");
-    CHECK(io::media_type(bytes_of("\0\0\0\x18"
-                                  "ftypmif1\0\0\0\0mif1avif"sv)) == "image/avif");
-    CHECK(io::media_type(bytes_of("\0\0\0\x14"
-                                  "ftypheic\0\0\0\0mif1"sv))
+    CHECK(io::media_type(io::bytes_of_text("\0\0\0\x14"
+                                           "ftypavif\0\0\0\0mif1"sv)) == "image/avif");
+    CHECK(io::media_type(io::bytes_of_text("\0\0\0\x18"
+                                           "ftypmif1\0\0\0\0mif1avif"sv)) == "image/avif");
+    CHECK(io::media_type(io::bytes_of_text("\0\0\0\x14"
+                                           "ftypheic\0\0\0\0mif1"sv))
               .empty());
-    CHECK(io::media_type(bytes_of("\0\0\0\x14"
-                                  "ftypheic\0\0\0\0mif1avif"sv))
+    CHECK(io::media_type(io::bytes_of_text("\0\0\0\x14"
+                                           "ftypheic\0\0\0\0mif1avif"sv))
               .empty()); // beyond the box
     CHECK(io::suffix_of_image("image/avif") == ".avif");
 }
@@ -64,7 +53,7 @@ TEST_CASE("AVIF images keep their pixels", "[io]") {
             const io::Bytes lossy = io::encoded_avif(image, {85, false, numbers});
             const auto near = io::decoded_image(lossy);
             REQUIRE(near);
-            CHECK(farthest(*near, image) < 16);
+            CHECK(test::farthest(*near, image) < 16);
             CHECK(lossy == io::encoded_avif(image, {85, false, numbers}));
         }
         CHECK(io::encoded_avif(image, {30, false, false}).size() < exact.size());

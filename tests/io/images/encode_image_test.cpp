@@ -24,13 +24,6 @@ io::Pixels soft(bool alpha, bool grey) {
     return image;
 }
 
-int farthest(const io::Pixels& a, const io::Pixels& b) {
-    REQUIRE(a.rgba.size() == b.rgba.size());
-    int most = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) most = std::max(most, std::abs(a.rgba[i] - b.rgba[i]));
-    return most;
-}
-
 /// Files of others: a JPEG with the tables of the standard and a comment, a PNG that is not compressed.
 const char* const wasteful_jpeg =
     "/9j/4AAQSkZJRgABAQAAAQABAAD//gAObWFkZSBieSBoYW5k/9sAQwAKBwcIBwYKCAgICwoKCw4YEA4NDQ4dFRYRGCMfJSQiHyIh"
@@ -108,7 +101,9 @@ TEST_CASE("a PNG and a lossless WebP have the pixels that they are made of", "[i
 
 TEST_CASE("JPEG and WebP are near to the pixels, by quality", "[io]") {
     const io::Pixels image = soft(false, false);
-    const auto apart = [&](const io::Bytes& bytes) { return farthest(*io::decoded_image(bytes), image); };
+    const auto apart = [&](const io::Bytes& bytes) {
+        return test::farthest(*io::decoded_image(bytes), image);
+    };
     CHECK(apart(io::encoded_jpeg(image, {.quality = 95, .as_numbers = true})) <= 6);
     CHECK(apart(io::encoded_webp(image, {.quality = 95, .as_numbers = true})) <= 16);
     CHECK(io::encoded_jpeg(image, {.quality = 30}).size() < io::encoded_jpeg(image, {.quality = 95}).size());
