@@ -69,7 +69,8 @@ TEST_CASE("bake: a textured plane onto itself gives the texture within a level",
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = i % 4 == 3 ? std::uint8_t{255} : noise(state);
     BakeSource source;
     source.mesh = sheet(0, 1, 0, 1, 5);
-    source.mesh.primitives = {Primitive{.material = 0}};
+    source.mesh.primitives.resize(1);
+    source.mesh.primitives[0].material = 0;
     source.looks.resize(1);
     source.looks[0].base_texture.image = texture_image(size, size, pixels, true, 4096);
     source.double_sided = {0};

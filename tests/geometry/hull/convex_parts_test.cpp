@@ -14,7 +14,7 @@ using namespace facetmill;
 
 namespace {
 
-constexpr std::size_t cells = 1 << 15; // few, so that the tests take little time
+constexpr std::size_t few_cells = 1 << 15; // few, so that the tests take little time
 
 bool inside(const Mesh& convex, const Vec3& p) {
     for (Index f = 0; f < convex.face_count(); ++f)
@@ -42,7 +42,7 @@ bool covers(const ConvexPartsResult& r, const Mesh& mesh, HullShape shape) {
     return true;
 }
 
-Mesh box(const Vec3& from, const Vec3& to) {
+Mesh block(const Vec3& from, const Vec3& to) {
     Mesh mesh = shapes::cube();
     for (Vec3& p : mesh.positions)
         for (std::size_t k = 0; k < 3; ++k) p[k] = p[k] > 0 ? to[k] : from[k];
@@ -59,9 +59,9 @@ double volume(const ConvexPartsResult& r) {
 } // namespace
 
 TEST_CASE("convex parts: an L becomes two boxes", "[geometry][convex-parts]") {
-    Mesh mesh = box({0, 0, 0}, {4, 1, 1});
-    append(mesh, box({0, 1, 0}, {1, 3, 1}));
-    const ConvexPartsResult r = convex_parts(mesh, {8, 0.2, cells});
+    Mesh mesh = block({0, 0, 0}, {4, 1, 1});
+    append(mesh, block({0, 1, 0}, {1, 3, 1}));
+    const ConvexPartsResult r = convex_parts(mesh, {8, 0.2, few_cells});
     CHECK(r.parts.size() == 2);
     CHECK(covers(r, mesh, HullShape::hull));
     CHECK(volume(r) == Approx(6).epsilon(0.1)); // the cut is within a cell of the inner corner
@@ -70,30 +70,30 @@ TEST_CASE("convex parts: an L becomes two boxes", "[geometry][convex-parts]") {
 
 TEST_CASE("convex parts: a convex solid stays whole, and separate solids get a shape each",
           "[geometry][convex-parts]") {
-    CHECK(convex_parts(shapes::icosphere(2), {8, 0.1, cells}).parts.size() == 1);
-    Mesh mesh = box({0, 0, 0}, {1, 1, 1});
-    append(mesh, box({3, 0, 0}, {4, 1, 1}));
-    append(mesh, box({0, 3, 0}, {1, 4, 1}));
-    const ConvexPartsResult r = convex_parts(mesh, {8, 0.1, cells});
+    CHECK(convex_parts(shapes::icosphere(2), {8, 0.1, few_cells}).parts.size() == 1);
+    Mesh mesh = block({0, 0, 0}, {1, 1, 1});
+    append(mesh, block({3, 0, 0}, {4, 1, 1}));
+    append(mesh, block({0, 3, 0}, {1, 4, 1}));
+    const ConvexPartsResult r = convex_parts(mesh, {8, 0.1, few_cells});
     CHECK(r.parts.size() == 3);
     CHECK(volume(r) == Approx(3).epsilon(1e-4));
-    CHECK(convex_parts(mesh, {1, 0.1, cells}).parts.size() == 1);
-    CHECK(convex_parts(Mesh{}, {8, 0.1, cells}).parts.empty());
+    CHECK(convex_parts(mesh, {1, 0.1, few_cells}).parts.size() == 1);
+    CHECK(convex_parts(Mesh{}, {8, 0.1, few_cells}).parts.empty());
 }
 
 TEST_CASE("convex parts: shapes of crossing parts and open sheets contain them", "[geometry][convex-parts]") {
     Mesh soup = shapes::torus(24, 8);
-    append(soup, box({0.5, 0.1, -0.3}, {1.5, 1.1, 0.7}));
+    append(soup, block({0.5, 0.1, -0.3}, {1.5, 1.1, 0.7}));
     append(soup, shapes::moebius(12));
     soup = triangulated(soup);
-    const ConvexPartsResult r = convex_parts(soup, {6, 0.2, cells});
+    const ConvexPartsResult r = convex_parts(soup, {6, 0.2, few_cells});
     CHECK(r.parts.size() <= 6);
     for (const HullShape shape : {HullShape::hull, HullShape::box, HullShape::sphere, HullShape::capsule})
         CHECK(covers(r, soup, shape));
 }
 
 TEST_CASE("convex parts: distances of cells are exact", "[geometry][convex-parts]") {
-    SolidGrid grid(surface_of(box({0, 0, 0}, {1, 1, 1})), 0.5, 1000);
+    SolidGrid grid(surface_of(block({0, 0, 0}, {1, 1, 1})), 0.5, 1000);
     grid.measure_distances();
     const auto solid = [&](std::size_t i) { return grid.solid(i); };
     for (std::size_t i = 0; i < grid.count(); ++i) {
