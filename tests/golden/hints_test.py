@@ -297,6 +297,9 @@ FOLLOWED = [
     ("W-BLANK", "pipe load clip.gltf ! render r.png", "when", "pipe load clip.gltf ! render r.png --when.vertices.min 1"),
     ("W-CAP-OPEN", "pipe load open.off ! clip z=.5 --cap ! write o.ply", "clean --holes minimal",
      "pipe load open.off ! clean --holes minimal ! clip z=.5 --cap ! write o.ply"),
+    ("E-BAKE-UV", "pipe load part.off ! bake 16 ! write o.ply", "use unwrap before bake",
+     "pipe load part.off ! unwrap 64 ! bake 16 ! write o.ply"),
+    ("E-UNWRAP-SET", "pipe generate cube ! unwrap --set 1", "--set 0", "pipe generate cube ! unwrap --set 0"),
     ("W-CHECK", "pipe load open.off ! validate --closed true --severity warn", "clean --holes minimal",
      "pipe load open.off ! clean --holes minimal ! validate --closed true --severity warn"),
     ("W-CLIP-ALL", "pipe load part.off ! clip z=9 --keep back ! write o.ply", "info prints the bounds",
@@ -393,17 +396,20 @@ NOT_FOLLOWED = {
     AT_THE_FILE: """E-3MF E-BUFFER E-CSV E-DXF E-ENCODING E-EXTENSION E-FOOTPRINT E-GEOJSON E-GLB E-GLTF E-GZIP E-INDEX
         E-JSON E-MESHOPT E-MTL E-NODES E-OBJ E-OFF E-PLY E-STL E-TABLE E-TILESET E-VERSION E-WKT E-ZIP E-ZSTD W-FORMAT
         W-IMAGE W-INCOMPLETE W-INDEX W-MTL W-NODES W-OPTIMIZE W-TEXTURE W-TRAILING W-3MF W-COUNT
-        W-FOOTPRINT W-GLTF W-SPLATS E-ARCHIVE E-TAR E-REFERENCE E-MASS E-HULL""",
-    ENVIRONMENT: """E-BUG E-BUSY E-CHANGED E-INVARIANT E-KTX E-MEMORY E-PERMISSION E-READBACK E-SCRATCH E-SIZE E-SPACE
+        W-FOOTPRINT W-GLTF W-SPLATS E-ARCHIVE E-TAR E-REFERENCE E-MASS E-HULL
+        E-IMPORT""",
+    ENVIRONMENT: """E-AVIF E-BUG E-BUSY E-CHANGED E-INVARIANT E-KTX E-MEMORY E-PERMISSION E-READBACK E-SCRATCH E-SIZE E-SPACE
         E-WRITE W-CACHE W-PRUNE W-STATE""",
     ITS_VALUES: """E-CROP-CAP E-DEPFILE E-DRACO E-EXPANSION E-LIMIT E-LINES E-MASK E-NAME E-REQUIRES E-SAVE E-SOLVE
-        E-THICKEN E-TRANSFORM E-TYPE E-YAML W-MASK E-WRAP E-WRAP-LARGE E-TIME""",
+        E-THICKEN E-UNWRAP-FULL E-TRANSFORM E-TYPE E-YAML W-MASK E-WRAP E-WRAP-LARGE E-TIME""",
     NOT_A_FAULT: """W-ATTRIBUTE W-EXTENSION W-FACES W-GROUPS W-INSTANCES W-INSTANCING W-MATERIAL W-MESHOPT W-MORPH W-NAME
         W-MERGE-STAYS W-NAN W-NOT-FINITE W-SCENES W-SIMPLIFY-NOTHING W-SKIPPED W-TEXTURE-KEPT W-TEXTURES W-TILE-NOTHING
         W-VOLUME W-ALIGN W-HULL-FLAT W-NO-TANGENTS W-REMESH-NO-AREA W-REMESH-TOLERANCE W-TRANSFER-NONE W-TRANSFER-SEAMS
-        W-TRANSFER-SKIN""",
+        W-TRANSFER-SKIN
+        W-BAKE-FAR W-IMPORT W-UNWRAP-TEXTURES""",
     ELSEWHERE: """W-BASELINE W-BIND-POSE W-CELLS W-CRUMPLE-COARSE W-FANS W-PALETTE W-SECTION-CROSSES W-SIMPLIFY-VANISHED
-        W-SPLIT-FOLDED W-SPLIT-SHARED W-SURFACE-LOST W-TRANSFORM""",
+        W-SPLIT-FOLDED W-SPLIT-SHARED W-SURFACE-LOST W-TRANSFORM
+        E-BAKE-SOURCE E-LOOK E-UNWRAP-FINE W-BAKE-OVERLAP W-REMESH-INTERSECTS""",
 }
 
 
