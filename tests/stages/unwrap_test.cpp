@@ -17,7 +17,7 @@ Scene textured_cube() {
                       "normalTexture":{"index":0,"texCoord":1}}]})";
     scene.documents.push_back(document);
     scene.materials.push_back({.name = "paint", .document = 0, .index = 0});
-    scene.parts[0].mesh.primitives.push_back({.material = 0});
+    scene.parts[0].mesh.primitives.push_back({.material = 0, .attributes = {}, .json = {}});
     return scene;
 }
 
