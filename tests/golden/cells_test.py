@@ -91,7 +91,7 @@ class Cells(LargeCase):
                  ("crumple --mask.material x", "crumple: mask: cells do not contain", "remove that option"),
                  ("clean --weld near --tolerance 1%", "clean: weld: near moves vertices", "exact does not"),
                  ("clean --t_junctions near --tolerance 1%", "clean: t_junctions: near moves vertices", "remove that option"),
-                 ("clean --holes minimal", "clean: holes: whether a patch meets other faces", "remove that option"),
+                 ("clean --holes minimal", "clean: holes: a patch may meet any other face", "remove that option"),
                  ("clean --self_intersections union", "clean: self_intersections needs the whole mesh", "remove that option"),
                  ("clean --components.keep 1", "clean: components: connected components", "remove that option"),
                  ("clean --inner_components", "clean: inner_components: connected components", "remove that option"),

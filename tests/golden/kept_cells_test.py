@@ -147,7 +147,7 @@ class KeptCells(LargeCase):
         self.keep()
         cells, simplified = "cells reused", "simplified cells reused"
         run = self.keep(faces=8000)  # of the same cells
-        self.assertIn("simplified cells of other inputs or options removed", run.stderr)
+        self.assertIn("simplified cells from other inputs or options removed", run.stderr)
         self.assertIn(cells, run.stderr)
         self.assertNotIn(simplified, run.stderr)
         self.assertEqual(self.result(), self.without(8000))
@@ -157,7 +157,7 @@ class KeptCells(LargeCase):
         self.keep(faces=8000)
         self.flip(self.scan, -7)  # a corner of the last face, or a place
         run = self.keep(faces=8000)
-        self.assertIn("are of other inputs: they are made again", run.stderr)
+        self.assertIn("belong to other inputs: they are made again", run.stderr)
         self.assertNotIn("reused", run.stderr)
         self.assertEqual(self.result(), self.without(8000))
         manifest = json.loads((self.kept / MANIFEST).read_text())
@@ -235,7 +235,7 @@ class KeptCells(LargeCase):
         self.assertIn("E-CHANGED", told)
         self.assertFalse((self.dir / "o.ply").exists())
         run = self.keep()
-        self.assertIn("are of other inputs: they are made again", run.stderr)
+        self.assertIn("belong to other inputs: they are made again", run.stderr)
         self.assertEqual(self.result(), self.without())
 
     def test_a_folder_that_goes_away_ends_the_run(self):

@@ -126,10 +126,9 @@ TEST_CASE("inputs that are not there are refused", "[io]") {
     const TemporaryDirectory dir;
     CHECK(failure([&] { Input::open(dir / "no"); }) ==
           fmt::format("missing [E-FILE] there is no file '{}'", (dir / "no").string()));
-    CHECK(
-        failure([&] {
-            io::Input::open("no.step");
-        }).starts_with("missing [E-FILE] there is no file 'no.step' | it is a CAD file of curved surfaces"));
+    CHECK(failure([&] { io::Input::open("no.scad"); })
+              .starts_with(
+                  "missing [E-FILE] there is no file 'no.scad' | its name suggests an OpenSCAD program"));
     CHECK(failure([&] { Input::open(dir.path()); }) ==
           fmt::format("missing [E-DIRECTORY] '{0}' is a directory, expected a file | give a file in it, or "
                       "(load, batch --input) a pattern for many files: '{0}/*.ply'",

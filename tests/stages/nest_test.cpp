@@ -78,5 +78,6 @@ TEST_CASE("nest names all parts without a place", "[bed]") {
               run_stage("nest", "{plate: [200, 200, 200]}", scene);
           }).starts_with("stage [E-NEST] nest: 2 parts have no place: 'long', 'tall'"));
     CHECK(test::problems_of("nest", test::options({{"plate", "-1"}})) ==
-          "E-NEST nest: the lengths of plate must be above 0, found -1");
+          "E-NEST nest: the lengths of plate must be above 0, found -1 | write, for example, plate: [250mm, "
+          "210mm]");
 }

@@ -32,7 +32,7 @@ TEST_CASE("tile makes a part of every cell", "[stages]") {
 
 TEST_CASE("tile refuses what makes no grid", "[stages]") {
     CHECK(refusal_of("tile", "0", scene_of(shapes::grid(4, 3))) ==
-          "usage [E-TILE] tile: 'size' must be above 0, found 0");
+          "usage [E-TILE] tile: 'size' must be above 0, found 0 | write, for example, size: 200mm");
     CHECK(refusal_of("tile", "{size: 1, axes: xx}", scene_of(shapes::grid(4, 3))) ==
           "usage [E-TILE] tile: 'axes' accepts each of x, y, z at most once, found 'xx' | for example axes: "
           "xy");

@@ -64,7 +64,8 @@ TEST_CASE("transform scales parts to fit", "[stages]") {
     CHECK(failure([&] { run_stage("transform", "{fit: [1, 2]}", block()); }) ==
           "usage [E-TRANSFORM] test.yaml:1:7: transform: fit needs one length or three, found 2");
     CHECK(failure([&] { run_stage("transform", "{fit: -1mm}", block()); }) ==
-          "usage [E-TRANSFORM] test.yaml:1:7: transform: the lengths of fit must be above 0, found -1mm");
+          "usage [E-TRANSFORM] test.yaml:1:7: transform: the lengths of fit must be above 0, found -1mm | "
+          "write, for example, fit: 200mm");
     Mesh point;
     point.positions = {{1, 2, 3}};
     CHECK(failure([&] {

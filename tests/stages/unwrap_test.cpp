@@ -37,7 +37,8 @@ TEST_CASE("unwrap: reports what it made", "[stages]") {
 TEST_CASE("unwrap: textures follow the coordinates that are kept", "[stages]") {
     CHECK(run_stage("unwrap", "64", textured_cube()).warnings() ==
           std::vector<std::string>{"W-UNWRAP-TEXTURES"});
-    CHECK(run_stage("unwrap", "{set: 2}", textured_cube()).warnings().empty());
+    CHECK_THROWS_WITH(run_stage("unwrap", "{set: 2}", textured_cube()),
+                      Catch::Matchers::Contains("needs a set 1 before it"));
     const auto run = run_stage("unwrap", "{texture: 64, keep: true}", textured_cube());
     CHECK(run.warnings().empty());
     CHECK(run.mesh().find("TEXCOORD_1", Domain::wedge));

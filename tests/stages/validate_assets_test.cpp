@@ -47,6 +47,6 @@ TEST_CASE("validate: each fault of an asset fails its own check", "[stages][vali
           "base_colours");
     CHECK(failed("{for: shop}", triangle("", R"({"metallicFactor":1})")) == "base_colours");
     CHECK(failed("{for: ar}", triangle("", R"({"metallicFactor":1})")) == "pivot");
-    CHECK(failed("{for: shop, limits: {longest_side: {max: 0.5}}}", triangle("", grey)) == "longest_side");
+    CHECK(failed("{for: shop, limits: {longest_side: {min: 5}}}", triangle("", grey)) == "longest_side");
     CHECK(failed("{for: godot, limits: {primitives: 0}}", triangle("", grey)) == "primitives");
 }

@@ -282,7 +282,7 @@ TEST_CASE("write makes triangles for readers of no other faces, and leaves the s
     mesh.face_offsets = {0, 5, 8};
     b.run("write", Value::scalar("mixed.ply"));
     REQUIRE(b.record.said.size() == 1);
-    CHECK(b.record.said[0].find("faces of 3 to 5 corners") == 0);
+    CHECK(b.record.said[0].find("faces have 3 to 5 corners") == 0);
     CHECK(b.record.warnings.empty());
     CHECK(b.state.record.outputs.back().read_back["faces"] == 2);
     b.record.said.clear();

@@ -52,22 +52,15 @@ constexpr int phases = 16; ///< texels that share the rays: 4 x 4
 
 /// At least `count` directions over a plane with normal z, spread with the cosine as density. Every 16th is a
 /// set that is spread over the whole sky, too. After P. Shirley and K. Chiu, "A Low Distortion Map Between
-/// Disk and Square" (1997); each set is the sequence of J. Hammersley, shifted within its cells.
+/// Disk and Square" (1997); points of M. Roberts' sequence R2 (2018).
 std::vector<Vec3> sky_directions(int count) {
-    const int per_set = (count + phases - 1) / phases;
+    const int all_sets = (count + phases - 1) / phases * phases;
+    const auto spread = [](double x) { return 2 * (x - std::floor(x)) - 1; };
+    constexpr double plastic = 1.32471795724474602596; // the root of x^3 = x + 1
     std::vector<Vec3> all;
-    all.reserve(static_cast<std::size_t>(per_set * phases));
-    for (int i = 0; i < per_set * phases; ++i) {
-        const int in_set = i / phases, phase = i % phases;
-        double inverse = 0, digit = 0.5;
-        for (int n = in_set; n > 0; n /= 2) {
-            inverse += digit * (n % 2);
-            digit /= 2;
-        }
-        const double shift_a = (phase % 4 + 0.5) / 4, shift_b = (phase / 4 + 0.5) / 4; // of a cell
-        const double a = 2 * (in_set + shift_a) / per_set - 1;
-        const double turned = inverse + shift_b / per_set;
-        const double b = 2 * (turned - std::floor(turned)) - 1;
+    all.reserve(static_cast<std::size_t>(all_sets));
+    for (int i = 0; i < all_sets; ++i) {
+        const double a = spread(0.5 + i / plastic), b = spread(0.5 + i / (plastic * plastic));
         double r = 0, angle = 0;
         if (a * a > b * b) {
             r = a;

@@ -205,7 +205,7 @@ std::optional<Refusal> check_split_targets(const SplitSettings& s) {
                        fmt::format("use {}", knows)};
     };
     if (s.max_edge > 0 && s.method != SplitMethod::bisect && !row_of(s.method).halves_edges)
-        return unreachable("max_edge", "use bisect, midpoint, quads, loop, butterfly or catmull-clark");
+        return unreachable("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         return unreachable("min_angle", "bisect or notch");
     const char* target = s.max_edge > 0    ? "max_edge"

@@ -74,7 +74,7 @@ TEST_CASE("a kept partition gives what a new one gives", "[cells]") {
         }
         const KeptRun other = run_kept(path, kept, 'b');
         REQUIRE(other.told.size() == 2);
-        CHECK(other.told[0].find("of other options: they are made again") != std::string::npos);
+        CHECK(other.told[0].find("belong to other options: they are made again") != std::string::npos);
         CHECK(other.told[1].find("from other inputs or options removed") != std::string::npos);
         CHECK(is_same(other.result, without.result));
     }
@@ -168,7 +168,7 @@ TEST_CASE("inputs that are as they were are not read for their digests", "[cells
         stamp(std::string(64, '0')); // the stamp is trusted; later readers report the difference
         again = run_kept(path, kept);
         REQUIRE(again.told.size() >= 1);
-        CHECK(again.told[0].find("of other inputs: they are made again") != std::string::npos);
+        CHECK(again.told[0].find("belong to other inputs: they are made again") != std::string::npos);
         again = run_kept(path, kept); // the file was read, so its digest is stored again
         REQUIRE(again.told.size() == 2);
         CHECK(again.told[0].find("cells reused from") != std::string::npos);

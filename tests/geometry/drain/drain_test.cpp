@@ -88,5 +88,5 @@ TEST_CASE("drain moves with instances and names cavities that stay closed", "[be
     CHECK(sheet.warnings() == std::vector<std::string>{"W-THICKEN-DRAIN"});
     CHECK(test::problems_of("thicken",
                             test::options({{"thickness", "1"}, {"mode", "edges"}, {"drain", "1"}})) ==
-          "E-CONFLICT thicken: 'drain' needs mode: surface");
+          "E-CONFLICT thicken: 'drain' needs mode: surface | add mode: surface, or leave out 'drain'");
 }

@@ -95,7 +95,7 @@ TEST_CASE("transform shrinks to fit and does not enlarge", "[bed]") {
     CHECK(size("{fit: [2, 3, 1.5], shrink_only: true}") == 1);
     CHECK(size("{fit: 2}") == Approx(2));
     CHECK(test::problems_of("transform", test::options({{"shrink_only", "true"}})) ==
-          "E-CONFLICT transform: 'shrink_only' needs fit");
+          "E-CONFLICT transform: 'shrink_only' needs fit | add fit, or leave out 'shrink_only'");
 }
 
 TEST_CASE("a turn takes one direction to another", "[bed]") {

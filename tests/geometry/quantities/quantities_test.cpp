@@ -106,7 +106,7 @@ TEST_CASE("properties of faces are the least or the most of the numbers of their
             CHECK(measure(part.mesh, p) == (p.join == Join::least ? *least : *most));
         ++compared;
     }
-    CHECK(compared == 9);
+    CHECK(compared == 10);
 }
 
 TEST_CASE("numbers are the same for any number of threads", "[geometry]") {

@@ -216,14 +216,14 @@ TEST_CASE("unwrap: shapes that unroll are not stretched", "[unwrap]") {
     CHECK(sheet.layout.used > 0.95);
 }
 
-TEST_CASE("unwrap: less stretch takes more charts", "[unwrap]") {
+TEST_CASE("unwrap: a bound of the stretch holds, and does not take fewer charts", "[unwrap]") {
     UnwrapSettings settings = texture_of(512, 2);
     settings.max_stretch = 1.3;
     const Unwrapped few = unwrapped(shapes::icosphere(3), settings);
-    settings.max_stretch = 1.01;
+    settings.max_stretch = 1.001;
     const Unwrapped many = unwrapped(shapes::icosphere(3), settings);
-    CHECK(few.layout.charts < many.layout.charts);
-    CHECK(many.layout.stretch.l2 < 1.01);
+    CHECK(few.layout.charts <= many.layout.charts);
+    CHECK(many.layout.stretch.l2 < 1.001);
 }
 
 TEST_CASE("unwrap: texels are as dense as asked, in the world", "[unwrap]") {
