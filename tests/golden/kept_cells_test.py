@@ -152,7 +152,7 @@ class KeptCells(LargeCase):
         self.assertNotIn(simplified, run.stderr)
         self.assertEqual(self.result(), self.without(8000))
         run = self.keep(faces=8000, load=("--unit", "mm"))
-        self.assertIn("are of other options: they are made again", run.stderr)
+        self.assertIn("belong to other options: they are made again", run.stderr)
         self.assertNotIn("reused", run.stderr)
         self.keep(faces=8000)
         self.flip(self.scan, -7)  # a corner of the last face, or a place
