@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* formats_examples =
     R"(The content of a file determines its format. If the content is not conclusive, the suffix decides. Files that end
-in .gz and .zst are decompressed. Text may be UTF-8 or UTF-16. Helper programs beside facetmill read FBX, STEP and others;
-without a helper, the list says what to install.
+in .gz and .zst are decompressed. Text may be UTF-8 or UTF-16. Helper programs beside facetmill read FBX, STEP
+and others. Without a helper, the list shows what to install.
 
 Examples
   facetmill formats

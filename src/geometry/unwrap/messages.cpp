@@ -10,8 +10,6 @@ const RegisterMessages unwrap_messages{
     {"E-UNWRAP-FINE", "The faces are too small for texture coordinates in float32.",
      "Remove tiny faces with `clean` or `simplify` first, or unwrap fewer parts at once with `only`.",
      ErrorKind::limit},
-    {"E-UNWRAP-SET", "A set of texture coordinates of `unwrap` would leave a gap. glTF numbers sets from 0.",
-     "Unwrap the lower set first, or use its number.", ErrorKind::usage},
 };
 
 } // namespace facetmill
