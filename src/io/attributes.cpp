@@ -181,7 +181,7 @@ void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
                     return is;
                 },
                 [](auto&) {});
-            warn(infinite, a, "infinite: read as nan (no value)",
+            warn(infinite, a, "infinite: read as no value",
                  "export the file again if infinity has another meaning");
         } else
             warn(count_values(

@@ -83,7 +83,7 @@ TEST_CASE("infinite values say that there is no number; normals that are none be
     REQUIRE(infinite.log.warnings.size() == 1);
     CHECK(infinite.log.warnings[0].id == "W-NAN");
     CHECK(infinite.log.warnings[0].message ==
-          "1 value of 'quality' in part 'a' is infinite: read as nan (no value)");
+          "1 value of 'quality' in part 'a' is infinite: read as no value");
     const Read normals = read(cloud("1", "nan 0 1"));
     REQUIRE(normals.log.warnings.size() == 1);
     CHECK(normals.log.warnings[0].message == "4 values of 'NORMAL' in part 'a' are not finite: set to 0");
