@@ -399,12 +399,14 @@ class ModelReader {
             if (object.corners[c] >= object.positions.size())
                 malformed(name_, 0, "E-3MF",
                           fmt::format("triangle {} of object {} refers to vertex {}, but the object has {}",
-                                      c / 3, id, object.corners[c], object.positions.size()));
+                                      c / 3, id, object.corners[c], object.positions.size()),
+                          hint_for_rules);
         for (const Index end : object.beams)
             if (end >= object.positions.size())
                 malformed(name_, 0, "E-3MF",
                           fmt::format("a beam of object {} refers to vertex {}, but the object has {}", id,
-                                      end, object.positions.size()));
+                                      end, object.positions.size()),
+                          hint_for_rules);
         std::set<std::uint32_t> missing;
         check(id, object.properties, none, missing);
         for (const Properties& p : object.triangles) check(id, p, object.properties.group, missing);

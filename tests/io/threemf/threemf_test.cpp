@@ -490,18 +490,21 @@ TEST_CASE("a broken 3MF is refused with its place", "[io]") {
     for (const auto& [told, expected] : cases) CHECK(told.starts_with("malformed [E-3MF] " + expected));
     CHECK(with("x=\"1\"", "x=\"nan\"").starts_with("malformed [E-NAN]"));
     const std::string entities = "<!DOCTYPE a [<!ENTITY b \"bbbb\"><!ENTITY c \"&b;&b;&b;\">]>";
-    CHECK(refused(archive("<?xml version=\"1.0\"?>\n" + entities + "<model/>")) ==
-          "malformed [E-3MF] " + place + ":2: a document type (<!DOCTYPE>) is not allowed in 3MF");
+    CHECK(refused(archive("<?xml version=\"1.0\"?>\n" + entities + "<model/>"))
+              .starts_with("malformed [E-3MF] " + place +
+                           ":2: a document type (<!DOCTYPE>) is not allowed in 3MF"));
     std::string deep;
     for (int i = 0; i < 100000; ++i) deep += "<a>";
-    CHECK(refused(archive(deep)) ==
-          "malformed [E-3MF] " + place + ":1: elements are nested deeper than 64 levels");
-    CHECK(refused(archive(model(object, item, "xmlns:v=\"urn:volumes\" requiredextensions=\"v\""))) ==
-          "malformed [E-EXTENSION] " + place +
-              ":2: the extension 'v' (urn:volumes) is required but not supported");
-    CHECK(refused(archive(model(
-              "<object id=\"1\"><components><component objectid=\"1\"/></components></object>", item))) ==
-          "malformed [E-3MF] a.3mf: object 1 is a component of itself, or nested deeper than 32 levels");
+    CHECK(refused(archive(deep))
+              .starts_with("malformed [E-3MF] " + place + ":1: elements are nested deeper than 64 levels"));
+    CHECK(refused(archive(model(object, item, "xmlns:v=\"urn:volumes\" requiredextensions=\"v\"")))
+              .starts_with("malformed [E-EXTENSION] " + place +
+                           ":2: the extension 'v' (urn:volumes) is required but not supported"));
+    CHECK(
+        refused(archive(model(
+                    "<object id=\"1\"><components><component objectid=\"1\"/></components></object>", item)))
+            .starts_with("malformed [E-3MF] a.3mf: object 1 is a component of itself, or nested deeper than "
+                         "32 levels"));
     io::ReadSettings few;
     few.max_vertices = 2;
     CHECK(refused(archive(model(object, item)), few) == "limit [E-SIZE] " + place + ": too many vertices");
