@@ -149,6 +149,7 @@ void MotionLimits::see_animations(Source& source) {
             const Attribute keys = numbers_of(source, samplers.at(sampler).at("output"));
             if (keys.size() == 0) continue;
             std::vector<double> key;
+            key.reserve(static_cast<std::size_t>(keys.components));
             for (int i = 0; i < keys.components; ++i) key.push_back(keys.value(0, i));
             const std::pair name{property->node, property->path};
             // Animations with constant tracks still differ where their constants do.
