@@ -3,6 +3,7 @@
 #include "io/images/png.hpp"
 #include "stage/options/synonyms.hpp"
 #include "stage/read_recorded.hpp"
+#include "stage/stage.hpp"
 #include "stages/look/help.hpp"
 
 #include <cmath>
