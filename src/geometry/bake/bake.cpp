@@ -17,7 +17,7 @@ using namespace baking;
 
 namespace {
 
-/// A footprint that is a little smaller than a texel, so that a texture of the same size is copied as it is.
+/// A footprint slightly smaller than a texel. It copies a texture of the same size unchanged.
 constexpr double footprint_share = 0.99;
 
 /// Values of a texel, averaged over its samples.

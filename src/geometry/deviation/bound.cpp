@@ -35,7 +35,7 @@ double distance_to(const FaceTree& tree, Index triangle, const Piece& piece) {
     return most;
 }
 
-/// The bound of the piece from its corners alone. A bound of at most `enough` is not improved further.
+/// The bound of the piece, from its corners alone. Stops improving the bound once it reaches `enough`.
 double bound_of(const FaceTree& tree, const Piece& piece, double enough) {
     const auto& [a, b, c] = piece.corners;
     const double longest = std::max({length(b.at - a.at), length(c.at - b.at), length(a.at - c.at)});

@@ -34,12 +34,12 @@ struct DrainResult {
 
 /// A cavity is a closed component whose faces face inward. A hole is a vertical cylinder. Its axis begins at
 /// the lowest point at which a ball of its diameter fits into the cavity, and the cylinder passes through the
-/// wall below. So the hole opens fully into the cavity, and nothing remains in the cavity below it. Places
-/// are searched over the faces of the cavity, in steps of half the radius. Heights that differ by less than
-/// an eighth of the diameter count as equal, and a single hole takes the middle of the lowest places. Several
-/// holes are at least two diameters apart. A hole ends where all of its section has left the wall, and before
-/// it meets the solid again; places where this is impossible are skipped. The result is closed and manifold
-/// (see combine). The mesh must be a closed solid. The same for any number of threads.
+/// wall below. So the hole opens fully into the cavity, and nothing remains in the cavity below it. The
+/// search tests points on the faces of the cavity, in steps of half the radius. Heights that differ by less
+/// than an eighth of the diameter count as equal, and a single hole takes the middle of the lowest places.
+/// Several holes are at least two diameters apart. A hole ends where all of its section has left the wall,
+/// and before it meets the solid again; places where this is impossible are skipped. The result is closed and
+/// manifold (see combine). The mesh must be a closed solid. The same for any number of threads.
 [[nodiscard]] DrainResult drain(Mesh mesh, const DrainSettings& settings);
 
 } // namespace facetmill

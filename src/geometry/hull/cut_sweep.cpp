@@ -27,7 +27,7 @@ std::vector<Vec3> moved_apart(std::vector<Vec3> points) {
     return points;
 }
 
-constexpr std::size_t directions = 98; ///< whole vectors with coordinates of at most 2, without multiples
+constexpr std::size_t directions = 98; ///< whole coordinates from -2 to 2, no multiples of others
 const std::array<Vec3, directions>& all_directions() {
     static const auto all = [] {
         std::array<Vec3, directions> out;

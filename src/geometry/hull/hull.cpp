@@ -143,7 +143,7 @@ ConvexSurface shape_around(const ConvexSurface& hull, const HullSettings& s, Hul
     return certified(corners, (capsule.ends[0] + capsule.ends[1]) / 2, hull.points);
 }
 
-/// The corners of the cubes around points, of twice the margin.
+/// The corners of a cube around each point. The sides of the cubes are twice the margin.
 std::vector<Vec3> padded(std::span<const Vec3> points, double margin) {
     std::vector<Vec3> out;
     out.reserve(8 * points.size());

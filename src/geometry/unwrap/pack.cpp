@@ -76,7 +76,7 @@ class Strip {
         return best;
     }
 
-    /// Charts of about the same size: the places below the last of them are taken to be full.
+    /// Charts of similar size have the same class. The places before the last chart of a class count as full.
     static std::size_t size_class(const CellMask& mask) {
         const auto steps = [](std::size_t n) {
             const auto bits = static_cast<std::size_t>(std::bit_width(n));

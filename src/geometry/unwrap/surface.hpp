@@ -27,7 +27,7 @@ struct UnwrapSurface {
     std::vector<Vec3> positions;      ///< in the world, relative to their centre
     std::vector<Index> corner_vertex; ///< [3 * faces]
     std::vector<Index> twin; ///< [3 * faces] the corner along the same edge of the only neighbour, or none
-    std::vector<Vec3> area_vectors;    ///< [faces] of twice the area
+    std::vector<Vec3> area_vectors;    ///< [faces] normals, as long as twice the area
     std::vector<FlatShape> shapes;     ///< [faces] thin triangles are given a height
     std::vector<std::uint8_t> is_thin; ///< [faces]
     std::vector<Index> mesh_begin;     ///< [meshes + 1] the first face of each mesh
