@@ -112,7 +112,6 @@ class Baker {
             maps_.missed += c.missed;
             maps_.transparent = maps_.transparent || c.transparent;
             maps_.glows = maps_.glows || c.glows;
-            maps_.has_texture_occlusion = maps_.has_texture_occlusion || c.occlusion;
         }
         for (const std::uint8_t m : marks_) {
             maps_.overlapping_faces += (m & 2) != 0;
@@ -126,7 +125,7 @@ class Baker {
   private:
     struct Counts {
         std::size_t covered = 0, missed = 0;
-        bool transparent = false, glows = false, occlusion = false;
+        bool transparent = false, glows = false;
     };
 
     void emission_strength(const BakeSource& source) {
@@ -188,7 +187,6 @@ class Baker {
             values.normal = -values.normal;
             values.facet = -values.facet;
         }
-        counts.occlusion = counts.occlusion || values.has_occlusion;
         sum.add(values, in_tangent_space(at, values.normal));
         sum.missed = sum.missed || found.missed;
         sum.height += found.height;

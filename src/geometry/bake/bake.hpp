@@ -58,7 +58,7 @@ struct BakedMaps {
     std::vector<float> thickness;       ///< of the source, inward along its normal; 0: no other side
     std::vector<float> position;        ///< three coordinates in world space
     float emission_strength = 1;
-    bool transparent = false, glows = false, has_texture_occlusion = false;
+    bool transparent = false, glows = false;
     std::size_t covered = 0; ///< texels with a point of the target
     std::size_t missed = 0;  ///< covered texels whose rays hit nothing, filled from the nearest point
     std::size_t overlapping_faces = 0; ///< faces of the target that share texels

@@ -48,13 +48,7 @@ double longest_boundary(const Mesh& mesh) {
 /// millionth.
 std::optional<double> hard_edges(const Measured& m) {
     const Mesh& mesh = m.world;
-    const auto normal = [&](Index f) {
-        Vec3 sum;
-        const Index begin = mesh.face_begin(f);
-        for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
-            sum += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
-        return normalised(sum);
-    };
+    const auto normal = [&](Index f) { return normalised(area_vector(mesh, f)); };
     const EdgeTable edges = build_edges(mesh);
     const std::vector<Index> faces = corner_faces(mesh);
     double count = 0;

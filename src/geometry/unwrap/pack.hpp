@@ -1,6 +1,7 @@
 #pragma once
 // Packs charts into a square.
 
+#include "geometry/unwrap/chart.hpp"
 #include "geometry/unwrap/unwrap.hpp"
 
 #include "geometry/polygon/polygon.hpp"
@@ -11,6 +12,7 @@ namespace facetmill::unwrap_room {
 struct PackItem {
     std::vector<Index> corners; ///< points, three per triangle
     std::vector<Vec2> points;
+    std::vector<BorderEdge> border; ///< for the test after rounding
     Vec2 size;       ///< of its box
     double area = 0; ///< of its triangles
 };

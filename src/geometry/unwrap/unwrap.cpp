@@ -18,18 +18,12 @@ namespace {
 
 using namespace unwrap_room;
 
-/// A chart to be packed, with its border for the last test.
-struct FlatItem {
-    PackItem item;
-    std::vector<BorderEdge> border;
-};
-
 /// Turns the longer side of the smallest rectangle around the chart along x, and moves it to the origin.
-FlatItem item_of(const UnwrapSurface& surface, Gluing& gluing, const Chart& chart) {
+PackItem item_of(const UnwrapSurface& surface, Gluing& gluing, const Chart& chart) {
     FlatChart flat(surface, gluing, chart.faces);
     flat.start_from(gluing);
-    FlatItem out{{flat.corners(), flat.points(), {}, 0}, flat.border()};
-    auto& points = out.item.points;
+    PackItem out{flat.corners(), flat.points(), flat.border(), {}, 0};
+    auto& points = out.points;
     std::vector<Vec2> outline;
     outline.reserve(out.border.size());
     for (const BorderEdge& e : out.border) outline.push_back(points[e.from]);
@@ -41,24 +35,24 @@ FlatItem item_of(const UnwrapSurface& surface, Gluing& gluing, const Chart& char
     }
     for (Vec2& p : points) {
         p = p - low;
-        out.item.size = {std::max(out.item.size.x, p.x), std::max(out.item.size.y, p.y)};
+        out.size = {std::max(out.size.x, p.x), std::max(out.size.y, p.y)};
     }
-    const auto& c = out.item.corners;
+    const auto& c = out.corners;
     for (std::size_t i = 0; i < c.size(); i += 3)
-        out.item.area += cross(points[c[i + 1]] - points[c[i]], points[c[i + 2]] - points[c[i]]) / 2;
+        out.area += cross(points[c[i + 1]] - points[c[i]], points[c[i + 2]] - points[c[i]]) / 2;
     return out;
 }
 
 /// Moves the points of all charts to their places, in steps of the lattice.
-void place_items(std::vector<FlatItem>& flat, const Packing& packing) {
+void place_items(std::vector<PackItem>& flat, const Packing& packing) {
     const double steps = lattice_steps / static_cast<double>(packing.texture);
     const std::size_t failed = parallel_reduce(
         flat.size(), std::size_t{0},
         [&](std::size_t begin, std::size_t end) {
             std::size_t n = 0;
             for (std::size_t i = begin; i < end; ++i) {
-                for (Vec2& p : flat[i].item.points) p = packing.place(packing.items[i], p) * steps;
-                n += !round_to_lattice(flat[i].item.corners, flat[i].border, flat[i].item.points);
+                for (Vec2& p : flat[i].points) p = packing.place(packing.items[i], p) * steps;
+                n += !round_to_lattice(flat[i].corners, flat[i].border, flat[i].points);
             }
             return n;
         },
@@ -73,7 +67,7 @@ void place_items(std::vector<FlatItem>& flat, const Packing& packing) {
 }
 
 void fill_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const ChartSet& set,
-                 const std::vector<FlatItem>& flat) {
+                 const std::vector<PackItem>& flat) {
     const std::size_t faces = surface.face_count();
     std::vector<Index> mesh_of(faces), first_point(flat.size());
     for (Index m = 0; m + 1 < surface.mesh_begin.size(); ++m) {
@@ -87,7 +81,7 @@ void fill_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const Chart
     std::size_t points = 0;
     for (std::size_t i = 0; i < flat.size(); ++i) {
         first_point[i] = static_cast<Index>(points);
-        points += flat[i].item.points.size();
+        points += flat[i].points.size();
     }
     parallel_for(
         flat.size(),
@@ -97,8 +91,8 @@ void fill_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const Chart
                 const Index m = mesh_of[chart.faces[k]], f = chart.faces[k] - surface.mesh_begin[m];
                 layout.meshes[m].face_chart[f] = static_cast<Index>(i);
                 for (std::size_t j = 0; j < 3; ++j) {
-                    const Index p = flat[i].item.corners[3 * k + j];
-                    const Vec2& at = flat[i].item.points[p];
+                    const Index p = flat[i].corners[3 * k + j];
+                    const Vec2& at = flat[i].points[p];
                     const std::size_t c = std::size_t{3} * f + j;
                     layout.meshes[m].corner_point[c] = first_point[i] + p;
                     layout.meshes[m].coordinates[2 * c] = static_cast<float>(at.x / lattice_steps);
@@ -111,7 +105,7 @@ void fill_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const Chart
 }
 
 void measure_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const ChartSet& set,
-                    const std::vector<FlatItem>& flat, const Packing& packing) {
+                    const std::vector<PackItem>& flat, const Packing& packing) {
     layout.charts = set.charts.size();
     layout.texture = packing.texture;
     const double texels = packing.scale * static_cast<double>(packing.cell);
@@ -125,20 +119,13 @@ void measure_layout(UnwrapLayout& layout, const UnwrapSurface& surface, const Ch
         layout.stretch.ratio = std::max(layout.stretch.ratio, s.ratio);
     }
     layout.stretch.l2 = area > 0 ? std::sqrt(squares / area) : 1;
-    for (const FlatItem& f : flat) covered += f.item.area;
+    for (const PackItem& f : flat) covered += f.area;
     const double side = static_cast<double>(packing.texture) / texels;
     layout.used = covered / (side * side);
     for (Index c = 0; c < surface.twin.size(); ++c)
         if (surface.twin[c] != none && c < surface.twin[c] && !set.gluing.glued[c])
             layout.cut_length += surface.edge_length(c) * surface.unit;
     for (const std::uint8_t thin : surface.is_thin) layout.thin_faces += thin;
-}
-
-std::vector<PackItem> pack_items(const std::vector<FlatItem>& flat) {
-    std::vector<PackItem> items;
-    items.reserve(flat.size());
-    for (const FlatItem& f : flat) items.push_back(f.item);
-    return items;
 }
 
 } // namespace
@@ -151,14 +138,14 @@ UnwrapLayout unwrap(std::span<const UnwrapInput> inputs, const UnwrapSettings& s
     steps.next();
     ChartSet set = make_charts(surface, settings.max_stretch);
     steps.next();
-    std::vector<FlatItem> flat(set.charts.size());
+    std::vector<PackItem> flat(set.charts.size());
     parallel_for(
         flat.size(), [&](std::size_t i) { flat[i] = item_of(surface, set.gluing, set.charts[i]); }, 16);
     Packing packing;
     if (!flat.empty()) {
         UnwrapSettings scaled = settings;
         scaled.texels_per_unit *= surface.unit;
-        packing = pack(pack_items(flat), scaled);
+        packing = pack(flat, scaled);
         measure_layout(layout, surface, set, flat, packing);
         steps.next();
         place_items(flat, packing);

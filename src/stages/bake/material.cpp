@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 
 namespace facetmill::bake_stage {
 
@@ -115,10 +114,6 @@ Document without_materials(const Document& document) {
     return out;
 }
 
-void follow(int& i, const std::vector<int>& numbers) {
-    if (i >= 0 && static_cast<std::size_t>(i) < numbers.size()) i = numbers[static_cast<std::size_t>(i)];
-}
-
 } // namespace
 
 BakedMaterial put_material(Scene& scene, const std::vector<std::size_t>& parts, const BakeSource& source,
@@ -139,18 +134,16 @@ BakedMaterial put_material(Scene& scene, const std::vector<std::size_t>& parts, 
 }
 
 void drop_unused_materials(Scene& scene) {
-    std::set<std::size_t> used;
+    std::vector<std::uint8_t> used(scene.documents.size());
     for (const Part& part : scene.parts)
         for (const Primitive& p : part.mesh.primitives)
-            if (p.material < scene.materials.size()) used.insert(p.material);
+            if (p.material < scene.materials.size())
+                if (const Material& m = scene.materials[p.material]; m.document >= 0 && m.index >= 0)
+                    used[static_cast<std::size_t>(m.document)] = 1;
     for (std::size_t d = 0; d < scene.documents.size(); ++d) {
-        io::TidyRequest request;
-        request.all = false;
+        if (used[d]) continue;
         const auto own = static_cast<int>(d);
-        bool any = false;
-        for (const std::size_t m : used)
-            any = any || (scene.materials[m].document == own && scene.materials[m].index >= 0);
-        if (any) continue;
+        io::TidyRequest request;
         for (const Part& part : scene.parts)
             if (part.document == own && part.source_mesh >= 0)
                 request.meshes.insert(static_cast<std::size_t>(part.source_mesh));
@@ -158,15 +151,8 @@ void drop_unused_materials(Scene& scene) {
         const Document bare = without_materials(*scene.documents[d]);
         io::DocumentOptimizer optimizer(bare);
         if (!optimizer.numbers_are_known()) continue;
-        const io::TidyNumbers numbers = optimizer.erase_unused(request);
+        io::renumber(scene, own, optimizer.erase_unused(request));
         scene.documents[d] = optimizer.finish(std::make_shared<const Document>(bare));
-        for (Part& part : scene.parts) {
-            if (part.document != own) continue;
-            follow(part.node, numbers.nodes);
-            follow(part.source_mesh, numbers.meshes);
-        }
-        for (Material& material : scene.materials)
-            if (material.document == own) follow(material.index, numbers.materials);
     }
 }
 

@@ -87,9 +87,13 @@ HiddenOfParts::HiddenOfParts(const CleanOptions& o, const Scene& scene, Context&
 
 void HiddenOfParts::add_parts(const Scene& shown, const std::vector<std::uint8_t>& judged, Surface& all) {
     std::vector<std::uint8_t> placed(judged.size());
+    std::optional<std::size_t> known; // all places of a part follow each other
+    Surface surface;
     const auto add = [&](std::size_t i, const Transform& place) {
         placed[i] = 1;
-        add_surface(all, filled_surface(shown.parts[i].mesh), place, first_[i]);
+        if (known != i) surface = filled_surface(shown.parts[i].mesh);
+        known = i;
+        add_surface(all, surface, place, first_[i]);
     };
     unless_malformed([&] {
         io::for_each_place_of_instances(shown, [&](std::size_t i, const Transform& place, double times) {

@@ -401,19 +401,6 @@ void drop_materials(Optimization& w) {
     renumber_materials(w.scene, number_of);
 }
 
-void renumber(Scene& scene, int document, const io::TidyNumbers& numbers) {
-    const auto follow = [](int& i, const std::vector<int>& all) {
-        if (i >= 0 && number(i) < all.size()) i = all[number(i)];
-    };
-    for (Part& part : scene.parts) {
-        if (part.document != document) continue;
-        follow(part.node, numbers.nodes);
-        follow(part.source_mesh, numbers.meshes);
-    }
-    for (Material& material : scene.materials)
-        if (material.document == document) follow(material.index, numbers.materials);
-}
-
 void add(io::TidyCounts& all, const io::TidyCounts& c) {
     for (const auto member : {&io::TidyCounts::nodes, &io::TidyCounts::meshes, &io::TidyCounts::materials,
                               &io::TidyCounts::textures, &io::TidyCounts::samplers, &io::TidyCounts::images,
@@ -430,7 +417,7 @@ void erase(Optimization& w) {
         if (m.document >= 0 && m.index >= 0) w.requests[number(m.document)].materials.insert(number(m.index));
     for (std::size_t d = 0; d < w.tidies.size(); ++d) {
         w.requests[d].all = w.o.prune;
-        renumber(w.scene, static_cast<int>(d), w.tidies[d].erase_unused(w.requests[d]));
+        io::renumber(w.scene, static_cast<int>(d), w.tidies[d].erase_unused(w.requests[d]));
         add(w.report.erased, w.tidies[d].erased());
         if (!w.tidies[d].numbers_are_known())
             w.context.warn("W-OPTIMIZE",

@@ -203,14 +203,14 @@ std::vector<Share> odd_textures(const Limited& l) {
 
 std::vector<Extent> base_colours(const Limited& l) {
     std::vector<Extent> all;
-    for (const MaterialRange& m : material_ranges(l.scene))
+    for (const MaterialRange& m : *l.materials)
         all.push_back({{.of = Of::material, .name = m.name}, m.darkest, m.brightest});
     return all;
 }
 
 std::vector<Share> partial_metals(const Limited& l) {
     std::vector<Share> shares;
-    for (const MaterialRange& m : material_ranges(l.scene))
+    for (const MaterialRange& m : *l.materials)
         if (m.partly_metal) shares.push_back({{.of = Of::material, .name = m.name}});
     return shares;
 }

@@ -1,10 +1,12 @@
 #pragma once
 // Limits of a whole scene: counts, names, glTF extensions, textures.
 
+#include "base/lazy.hpp"
 #include "mesh/scene.hpp"
 #include "options/declaration.hpp"
 #include "report/record.hpp"
 #include "stage/context.hpp"
+#include "stages/validate/material_ranges.hpp"
 
 #include <span>
 
@@ -32,6 +34,7 @@ struct SceneLimits {
 struct Limited {
     const Scene& scene;
     std::span<const report::FileRecord> files = {}; ///< the file and its neighbours
+    Lazy<std::vector<MaterialRange>> materials{[&s = scene] { return material_ranges(s); }};
 };
 
 void declare_limits(Declare<SceneLimits>& d);

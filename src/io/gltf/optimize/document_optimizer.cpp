@@ -260,4 +260,17 @@ std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentOptimizer>
     return bound;
 }
 
+void renumber(Scene& scene, int document, const TidyNumbers& numbers) {
+    const auto follow = [](int& i, const std::vector<int>& all) {
+        if (i >= 0 && static_cast<std::size_t>(i) < all.size()) i = all[static_cast<std::size_t>(i)];
+    };
+    for (Part& part : scene.parts) {
+        if (part.document != document) continue;
+        follow(part.node, numbers.nodes);
+        follow(part.source_mesh, numbers.meshes);
+    }
+    for (Material& material : scene.materials)
+        if (material.document == document) follow(material.index, numbers.materials);
+}
+
 } // namespace facetmill::io

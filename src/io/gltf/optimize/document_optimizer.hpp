@@ -39,6 +39,9 @@ struct TidyNumbers {
     std::vector<int> nodes, meshes, materials;
 };
 
+/// Gives the parts and the materials of a document their new numbers.
+void renumber(Scene& scene, int document, const TidyNumbers& numbers);
+
 /// The appearance of a material without textures.
 struct PlainLook {
     std::array<double, 4> colour = {1, 1, 1, 1}; ///< linear
