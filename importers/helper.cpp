@@ -2,6 +2,7 @@
 
 #include "platform/descriptor.hpp"
 #include "platform/file_bytes.hpp"
+#include "platform/file_status.hpp"
 #include "platform/sandbox.hpp"
 
 #include <algorithm>
@@ -16,8 +17,7 @@ namespace importers {
 
 namespace {
 
-constexpr int float_type = 5126, short_type = 5123, int_type = 5125, index_target = 34963,
-              vertex_target = 34962;
+constexpr int float_type = 5126, short_type = 5123, int_type = 5125, index_target = 34963;
 
 std::size_t components(std::string_view type) {
     return type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<std::size_t>(type.back() - '0');
@@ -51,15 +51,10 @@ Options options_of(std::span<char*> arguments) {
 
 std::string standard_input() {
     const facetmill::Descriptor file = facetmill::Descriptor::standard_input();
-    std::string all;
-    for (std::size_t room = std::size_t{1} << 20;; room *= 2) {
-        const std::size_t before = all.size();
-        all.resize(before + room);
-        const std::size_t got =
-            facetmill::read_whole(file, std::as_writable_bytes(std::span(all).subspan(before)));
-        all.resize(before + got);
-        if (got < room) return all;
-    }
+    const auto about = facetmill::status_of(file);
+    std::string all(about ? static_cast<std::size_t>(about->stamp.bytes) : 0, '\0');
+    all.resize(facetmill::read_whole(file, std::as_writable_bytes(std::span(all))));
+    return all;
 }
 
 void send(const facetmill::Descriptor& output, std::string_view text) {

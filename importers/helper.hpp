@@ -18,6 +18,8 @@
 
 namespace importers {
 
+inline constexpr int vertex_target = 34962; ///< of a buffer view with vertices
+
 using Json = nlohmann::ordered_json;
 
 struct Options {

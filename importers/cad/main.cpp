@@ -146,7 +146,6 @@ int Assembly::mesh(const TopoDS_Shape& shape, const std::optional<Colour>& colou
     Json primitives = Json::array();
     for (const auto& [material, group] : groups) {
         if (group.corners.empty()) continue;
-        constexpr int vertex_target = 34962;
         Json one = {{"attributes",
                      {{"POSITION", glb_.floats(group.positions, "VEC3", vertex_target, true)},
                       {"NORMAL", glb_.floats(group.normals, "VEC3", vertex_target)},

@@ -2,6 +2,8 @@
 
 #include "convert.hpp"
 
+#include "base/text/percent_encoded.hpp"
+
 #include <algorithm>
 #include <assimp/GltfMaterial.h>
 #include <cmath>
@@ -12,20 +14,6 @@ namespace importers {
 namespace {
 
 constexpr int repeat = 10497, clamp_to_edge = 33071, mirrored = 33648;
-
-std::string percent_encoded(const std::string& path) {
-    constexpr std::string_view plain = "/-_.~";
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    std::string uri;
-    for (const char c : path) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (std::isalnum(byte) || plain.find(c) != plain.npos)
-            uri += c;
-        else
-            uri += {'%', digits[byte >> 4], digits[byte & 15]};
-    }
-    return uri;
-}
 
 int wrap_of(int mode) {
     return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? clamp_to_edge
@@ -95,7 +83,7 @@ int Materials::image(const std::string& path) {
             std::replace(name.begin(), name.end(), '\\', '/');
             name = std::filesystem::path(name).filename().string();
         }
-        if (!name.empty()) index = glb_.add("images", {{"uri", percent_encoded(name)}});
+        if (!name.empty()) index = glb_.add("images", {{"uri", facetmill::percent_encoded(name)}});
     }
     return images_[path] = index;
 }

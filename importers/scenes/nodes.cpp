@@ -13,7 +13,6 @@ namespace {
 
 using Ints = std::vector<unsigned>;
 
-constexpr int vertex_target = 34962;
 constexpr std::size_t influences = 4; ///< joints of a vertex
 
 std::vector<float> column_major(const aiMatrix4x4& m, double scale) {

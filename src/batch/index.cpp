@@ -1,6 +1,7 @@
 // The summary of a batch as Markdown, and helpers that its reports share.
 
 #include "base/text/markup.hpp"
+#include "base/text/percent_encoded.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "base/text/short_names.hpp"
 #include "base/text/words.hpp"
@@ -18,17 +19,6 @@ namespace facetmill::batch {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The path of a URL: other characters than letters, digits and a few signs as %20.
-std::string percent_encoded(std::string_view path) {
-    std::string url;
-    for (const char c : path) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                           std::string_view("-._~/").find(c) != std::string_view::npos;
-        url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return url;
-}
 
 fs::path whole(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
 

@@ -3,6 +3,7 @@
 #include "cells/partition/kept_partition.hpp"
 #include "cli/assets.hpp"
 #include "cli/workflow.hpp"
+#include "platform/confined_program.hpp"
 #include "platform/cores.hpp"
 
 #include <fmt/format.h>
@@ -159,10 +160,9 @@ void check_cells(const ExportOptions& options, const CommandLine& line, Problems
 }
 
 std::string workflow_of(const ExportOptions& options, const std::vector<Job>& jobs, std::uint64_t memory) {
-    std::error_code unknown;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown).generic_string();
+    const auto program = executable().generic_string();
     const Resources resources{options.common.threads, default_threads(), batch::memory_for_jobs(memory),
-                              unknown ? "facetmill" : program};
+                              program.empty() ? "facetmill" : program};
     return options.engine == "ninja"  ? ninja_workflow(jobs, resources)
            : options.engine == "make" ? make_workflow(jobs, resources)
                                       : snakemake_workflow(jobs, resources);

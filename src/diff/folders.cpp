@@ -1,6 +1,7 @@
 #include "diff/folders.hpp"
 
 #include "base/text/markup.hpp"
+#include "base/text/percent_encoded.hpp"
 #include "base/text/readable_numbers.hpp"
 #include "base/text/short_names.hpp"
 #include "base/text/words.hpp"
@@ -113,20 +114,9 @@ std::string picture_cells(const FolderPair& pair, std::size_t& bytes) {
     return cells;
 }
 
-/// A path as a relative URL.
-std::string address(const std::string& path) {
-    std::string out;
-    for (const char c : path) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                           std::string_view("-_./~").find(c) != std::string_view::npos;
-        out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return out;
-}
-
 std::string name_html(const FolderPair& pair) {
     if (pair.page.empty()) return path_code(pair.paths.text());
-    return fmt::format("<a href=\"{}\">{}</a>", address(pair.page), path_code(pair.paths.text()));
+    return fmt::format("<a href=\"{}\">{}</a>", percent_encoded(pair.page), path_code(pair.paths.text()));
 }
 
 /// "counts, geometry", or the reason why there is no comparison.

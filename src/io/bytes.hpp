@@ -35,6 +35,13 @@ using Span = std::span<const std::byte>;
     return value;
 }
 
+/// Reads a big-endian number in the same way.
+[[nodiscard]] inline std::uint64_t big_endian(Span bytes, std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    return value;
+}
+
 /// A complete input: a mapped regular file, or the contents of a pipe or standard input. Immutable and
 /// shared.
 class Input {

@@ -177,10 +177,9 @@ Descriptor file_in_memory(std::span<const std::byte> bytes) {
     return file;
 }
 
-std::filesystem::path folder_of_executable() {
+std::filesystem::path executable() {
     std::error_code failed;
-    const std::filesystem::path file = std::filesystem::read_symlink("/proc/self/exe", failed);
-    return failed ? std::filesystem::path() : file.parent_path();
+    return std::filesystem::read_symlink("/proc/self/exe", failed); // empty on failure
 }
 
 } // namespace facetmill

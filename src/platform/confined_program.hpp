@@ -34,7 +34,7 @@ ConfinedEnd run_confined(const ConfinedProgram& settings, const Descriptor& inpu
 /// A file in memory with these bytes, to read from its begin. False, with errno, on failure.
 [[nodiscard]] Descriptor file_in_memory(std::span<const std::byte> bytes);
 
-/// The folder of this executable; empty if it is unknown.
-[[nodiscard]] std::filesystem::path folder_of_executable();
+/// The path of this executable; empty if it is unknown.
+[[nodiscard]] std::filesystem::path executable();
 
 } // namespace facetmill

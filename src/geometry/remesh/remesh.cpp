@@ -34,9 +34,9 @@ double longest_noise(const RemeshSettings& s, const Mesh& mesh) {
     return std::min(2 * (s.length > 0 ? s.length : s.min_length), mesh.bounds().diagonal() / 20);
 }
 
-/// Refuses a result that is too large, before any work on it.
 constexpr double most_faces = 700e6; // three half edges for each, numbered in 32 bits, and a reserve
 
+/// Refuses a result that is too large, before any work on it.
 void refuse_giant_result(double faces) {
     constexpr double bytes_per_face = 200; // of the working mesh at its largest
     const char* const hint = "give a larger length or tolerance";
@@ -135,11 +135,10 @@ void check(const RemeshSettings& s) {
     if (s.iterations < 0) refuse("iterations", s.iterations);
 }
 
-SelfIntersections intersections_of(std::vector<Vec3> points, std::vector<Index> corners) {
+SelfIntersections intersections_of(Surface surface) {
     constexpr std::size_t listed = 100000;
-    const std::size_t faces = corners.size() / 3;
-    return find_self_intersections(Surface{std::move(points), std::move(corners), {}}, faces,
-                                   {.limit = listed});
+    const std::size_t faces = surface.size();
+    return find_self_intersections(std::move(surface), faces, {.limit = listed});
 }
 
 /// Halves the intended lengths at the faces of the input that are nearest to intersecting faces.
@@ -167,9 +166,9 @@ void remesh_until_sound(const Mesh& mesh, const FaceTree& tree, const RemeshSett
         WorkingMesh& m = laid.mesh;
         iterate(m, Anchor(mesh, tree, m), settings.iterations);
         m.compact();
-        const SelfIntersections found = intersections_of(m.points, m.corners);
+        const SelfIntersections found = intersections_of({m.points, m.corners, {}});
         if (found.count > 0 && retry == 0)
-            result.input_intersects = intersections_of(mesh.positions, surface_of(mesh).corners).count > 0;
+            result.input_intersects = intersections_of(surface_of(mesh)).count > 0;
         result.intersections = found.count;
         result.retries = retry;
         if (found.count == 0 || result.input_intersects || retry == most_retries) return;

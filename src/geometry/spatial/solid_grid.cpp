@@ -80,12 +80,6 @@ SolidGrid::SolidGrid(const Surface& surface, double cell_size, std::size_t max_c
     fill();
 }
 
-Cell SolidGrid::cell(std::size_t index) const {
-    const auto x = static_cast<std::size_t>(cells_[0]), y = static_cast<std::size_t>(cells_[1]);
-    return {static_cast<std::int32_t>(index % x), static_cast<std::int32_t>(index / x % y),
-            static_cast<std::int32_t>(index / x / y)};
-}
-
 Cell SolidGrid::cell_at(const Vec3& p, const CellBox& box) const {
     const Vec3 at = in_cells(p);
     Cell c{};

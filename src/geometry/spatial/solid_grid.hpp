@@ -33,7 +33,6 @@ class SolidGrid {
                    (static_cast<std::size_t>(c[1]) +
                     static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(c[2]));
     }
-    Cell cell(std::size_t index) const;
     /// Computes square_distance. O(cells), parallel.
     void measure_distances();
     bool solid(std::size_t index) const { return solid_[index] != 0; }

@@ -279,7 +279,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     Json json = parse_document(document->json);
     const ScopedDestroy after(json);
     check_asset(json);
-    if (make_integers(json)) document->json = to_string(json);
+    bool changed = make_integers(json);
     Breaches breaches;
     check_members(json, breaches);
     document->buffers = load_buffers(json, chunks.binary, input, log);
@@ -287,14 +287,14 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     check_rules(json, breaches);
     Source source(json, document->buffers);
     source.decoded = settings.decoded;
-    if (correct_bounds(json, source, breaches)) document->json = to_string(json);
+    changed |= correct_bounds(json, source, breaches);
     warn_of_breaches(breaches, log);
     if (settings.expand_instances && uses_extension(json, instancing_extension)) {
         expand_instances(json, document->buffers, log);
-        document->json = to_string(json);
+        changed = true;
     }
-    if (part_kinds(json)) document->json = to_string(json);
-    if (place_at_centre(json)) document->json = to_string(json);
+    changed |= part_kinds(json);
+    changed |= place_at_centre(json);
 
     Scene scene;
     scene.unit = settings.unit.value_or(Unit::m);
@@ -304,7 +304,8 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     const auto frames = node_frames(json, [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
-    if (drop_further_parents(json, frames)) document->json = to_string(json);
+    changed |= drop_further_parents(json, frames);
+    if (changed) document->json = to_string(json);
     read_parts(scene, source, frames, settings, log);
     if (scene.parts.empty()) warn_without_parts(json, log);
     scene.documents.push_back(std::move(document));

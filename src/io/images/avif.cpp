@@ -20,14 +20,9 @@ constexpr std::size_t box_header = 8; ///< length and type of a box (ISO/IEC 144
 /// The length of the box at an offset; 0 if the bytes end first. A box may reach to the end of the file.
 std::size_t box_length(Span bytes, std::size_t at) {
     if (bytes.size() - at < box_header) return 0;
-    std::uint64_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    std::uint64_t length = big_endian(bytes, at, 4);
     if (length == 0) return bytes.size() - at;
-    if (length == 1 && bytes.size() - at >= 16) {
-        length = 0;
-        for (std::size_t i = 8; i < 16; ++i)
-            length = length << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
-    }
+    if (length == 1 && bytes.size() - at >= 16) length = big_endian(bytes, at + 8, 8);
     return length >= box_header && length <= bytes.size() - at ? static_cast<std::size_t>(length) : 0;
 }
 
@@ -35,9 +30,7 @@ std::size_t box_length(Span bytes, std::size_t at) {
 
 bool is_avif(Span bytes) {
     if (bytes.size() < 16 || as_text(bytes.subspan(4, 4)) != "ftyp") return false;
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[i]);
-    const std::size_t end = std::min(length, bytes.size());
+    const std::size_t end = std::min<std::size_t>(big_endian(bytes, 0, 4), bytes.size());
     for (std::size_t at = 8; at + 4 <= end; at += at == 8 ? 8 : 4) { // the second word is a version
         const std::string_view brand = as_text(bytes.subspan(at, 4));
         if (brand == "avif" || brand == "avis") return true;

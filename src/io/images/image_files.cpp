@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "base/text/markup.hpp"
+#include "base/text/percent_encoded.hpp"
 #include "base/text/spelling.hpp"
 #include "io/images/avif.hpp"
 #include "parallel/memory.hpp"
@@ -157,18 +158,7 @@ std::optional<ImageColours> image_colours(Span bytes) {
     return {};
 }
 
-std::string uri_of(const fs::path& relative) {
-    static constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
-    std::string out;
-    for (const char c : relative.generic_string()) {
-        if (plain.find(c) != std::string_view::npos)
-            out += c;
-        else
-            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return out;
-}
+std::string uri_of(const fs::path& relative) { return percent_encoded(relative.generic_string()); }
 
 bool has_bytes(const fs::path& path, Span bytes) {
     std::error_code failed;

@@ -206,7 +206,7 @@ std::optional<fs::path> helper_program(const std::string& name) {
     std::vector<fs::path> folders;
     if (const char* given = std::getenv("FACETMILL_IMPORTERS"); given && *given) {
         folders = {given};
-    } else if (const fs::path own = folder_of_executable(); !own.empty()) {
+    } else if (const fs::path own = executable().parent_path(); !own.empty()) {
         folders = {own, own / "../libexec/facetmill"};
     }
     for (const fs::path& folder : folders) {
@@ -225,15 +225,16 @@ Answer ask_helper(const Input& input, const DoorOrder& order) {
         loan.drop();
         refuse(input, fmt::format("the process that runs {} was ended", order.program));
     }
-    const Bytes stream = received(loan, input, order.program);
+    Bytes stream = received(loan, input, order.program);
     constexpr std::string_view magic = "FMIMPORT";
     constexpr std::size_t size_bytes = 8, head = magic.size() + size_bytes;
     if (stream.size() < head || as_text(Span(stream).first(magic.size())) != magic)
         refuse(input, order.program + " gave no stream of glTF");
     const std::uint64_t size = little_endian(stream, magic.size(), size_bytes);
     if (size > stream.size() - head) refuse(input, order.program + " gave a truncated stream");
-    Answer result{parse_json(as_text(Span(stream).subspan(head, size)), Broken::discarded),
-                  {stream.begin() + static_cast<std::ptrdiff_t>(head + size), stream.end()}};
+    Answer result{parse_json(as_text(Span(stream).subspan(head, size)), Broken::discarded), {}};
+    stream.erase(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(head + size));
+    result.glb = std::move(stream);
     if (!result.notes.is_object()) refuse(input, order.program + " gave malformed notes");
     if (result.notes.contains("error") && result.notes["error"].is_string())
         refuse(input, result.notes["error"].get<std::string>());

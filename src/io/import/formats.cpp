@@ -1,5 +1,6 @@
 // The formats that helper programs read.
 
+#include "base/lazy.hpp"
 #include "io/flatten.hpp"
 #include "io/images/image_files.hpp"
 #include "io/import/door.hpp"
@@ -126,20 +127,17 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log, const
 
 /// The header is short, but materials and images are known only after the conversion.
 void peek(const Input& input, FileHeader& header, const Format& format) {
-    const auto of_answer = [input, format] {
+    const Lazy<FileHeader> of_answer([input, format] {
         ReadLog ignored;
         const Input glb = converted(input, {}, format, ignored);
         FileHeader inner;
         as_import(input, [&] { codec_named("glb")->peek(glb, inner); });
         return inner;
-    };
-    header.has_materials = [of_answer] {
-        const FileHeader inner = of_answer();
-        return inner.has_materials && inner.has_materials();
-    };
+    });
+    header.has_materials = [of_answer] { return of_answer->has_materials && of_answer->has_materials(); };
+    if (is_cad(format)) return; // its helper sends no images
     header.images = [of_answer] {
-        const FileHeader inner = of_answer();
-        return inner.images ? inner.images() : std::vector<NamedImage>();
+        return of_answer->images ? of_answer->images() : std::vector<NamedImage>();
     };
 }
 

@@ -130,9 +130,10 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     steps.next();
     for (const char* option : {o.max_deviation ? "max_deviation" : "", o.max_angle ? "max_angle" : ""})
         if (*option && !log.has_solids)
-            context.warn("W-IMPORT",
-                         fmt::format("'{}' has no effect, because '{}' has no solids", option, path.string()),
-                         "leave it out; simplify: {deviation: ...} reduces meshes");
+            context.warn(
+                "W-IMPORT",
+                fmt::format("'{}' has no effect, because '{}' has no solids", option, path.generic_string()),
+                "leave it out; simplify: {deviation: ...} reduces meshes");
     if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
     const bool first = scene.parts.empty(), had_unit = scene.unit != Unit::unknown;
     const io::Conversion done = io::add_scene(scene, std::move(more));

@@ -96,13 +96,19 @@ TEST_CASE("convex parts: distances of cells are exact", "[geometry][convex-parts
     SolidGrid grid(surface_of(block({0, 0, 0}, {1, 1, 1})), 0.5, 1000);
     grid.measure_distances();
     const auto solid = [&](std::size_t i) { return grid.solid(i); };
+    const auto cell = [&](std::size_t i) {
+        const auto x = static_cast<std::size_t>(grid.cells()[0]),
+                   y = static_cast<std::size_t>(grid.cells()[1]);
+        return Cell{static_cast<std::int32_t>(i % x), static_cast<std::int32_t>(i / x % y),
+                    static_cast<std::int32_t>(i / x / y)};
+    };
     for (std::size_t i = 0; i < grid.count(); ++i) {
         std::int32_t least = INT32_MAX;
         for (std::size_t j = 0; j < grid.count(); ++j) {
             if (!solid(j)) continue;
             std::int32_t square = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::int32_t d = grid.cell(i)[k] - grid.cell(j)[k];
+                const std::int32_t d = cell(i)[k] - cell(j)[k];
                 square += d * d;
             }
             least = std::min(least, square);

@@ -14,11 +14,6 @@ namespace {
 
 constexpr double largest_angle = 0.1 * pi / 180, largest_scale_error = 1e-3, largest_weight_error = 1e-3;
 
-Attribute numbers_of(Source& source, const JsonCursor& reference) {
-    const Accessor a = accessor(source, reference);
-    return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
-}
-
 /// What a normalised integer of the accessor's bounds stands for.
 double unit_of(const Accessor& a) {
     if (!a.normalised) return 1;
@@ -54,14 +49,6 @@ bool reaches_far(const Json& node) {
     return std::any_of(extensions->items().begin(), extensions->items().end(), [](const auto& extension) {
         return extension.key() != "MSFT_lod" && extension.key() != "KHR_node_visibility";
     });
-}
-
-double length_of_three(const Json& node, const char* name) {
-    const auto found = node.find(name);
-    if (found == node.end() || found->size() != 3) return 0;
-    double sum = 0;
-    for (const Json& x : *found) sum += x.get<double>() * x.get<double>();
-    return std::sqrt(sum);
 }
 
 double length_at(const Attribute& a, std::size_t i) {
@@ -124,9 +111,7 @@ MotionLimits::MotionLimits(Source& source, const std::vector<NodeFrame>& frames,
     for (std::size_t n = 0; n < frames.size(); ++n) {
         const Json& node = document["nodes"][n];
         const Transform& local = frames[n].local;
-        nodes_[n].move = length_of_three(node, "translation");
-        if (node.contains("matrix"))
-            nodes_[n].move = length(Vec3{local.m[0][3], local.m[1][3], local.m[2][3]});
+        nodes_[n].move = length(Vec3{local.m[0][3], local.m[1][3], local.m[2][3]});
         nodes_[n].scale = greatest_stretch(local);
         if (reaches_far(node)) nodes_[n].reach = HUGE_VAL;
     }
@@ -146,7 +131,8 @@ void MotionLimits::see_animations(Source& source) {
             const auto property = animated_property(channels.at(c), nodes_.size());
             if (!property) continue;
             const std::size_t sampler = channels.at(c).at("sampler").index(samplers.size(), "sampler");
-            const Attribute keys = numbers_of(source, samplers.at(sampler).at("output"));
+            const Attribute keys =
+                decode_numbers(source, accessor(source, samplers.at(sampler).at("output")));
             if (keys.size() == 0) continue;
             std::vector<double> key;
             key.reserve(static_cast<std::size_t>(keys.components));
@@ -185,8 +171,9 @@ void MotionLimits::see_meshes(Source& source) {
             if (const auto targets = primitives.at(p).find("targets"))
                 for (std::size_t t = 0; t < targets->size(); ++t)
                     if (const auto moved = targets->at(t).find("POSITION")) {
-                        morph = std::max(morph, radius_of(source, *moved));
-                        sum += radius_of(source, *moved);
+                        const double reach = radius_of(source, *moved);
+                        morph = std::max(morph, reach);
+                        sum += reach;
                     }
             radius += sum;
         }
@@ -231,8 +218,9 @@ void MotionLimits::see_skinned(Source& source, const JsonCursor& primitive, cons
             raise(static_cast<double>(j), {}, radius_of(source, *where) + morph);
         return;
     }
-    const Attribute positions = numbers_of(source, *where), ids = numbers_of(source, *of),
-                    weights = numbers_of(source, *by);
+    const Attribute positions = decode_numbers(source, accessor(source, *where)),
+                    ids = decode_numbers(source, accessor(source, *of)),
+                    weights = decode_numbers(source, accessor(source, *by));
     const std::size_t count = std::min({positions.size(), ids.size(), weights.size()});
     if (positions.components != 3 || ids.components != 4 || weights.components != 4) return;
     for (std::size_t i = 0; i < count; ++i)

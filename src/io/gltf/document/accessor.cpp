@@ -209,6 +209,16 @@ AttributeData decode(Source& source, const Accessor& a) {
     return data;
 }
 
+Attribute decode_numbers(Source& source, const Accessor& a) {
+    return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
+}
+
+Attribute decode_numbers(Source& source, std::size_t index) {
+    const Json reference = index;
+    return decode_numbers(source,
+                          accessor(source, JsonCursor(reference, fmt::format("accessors[{}]", index))));
+}
+
 std::vector<Index> decode_indices(Source& source, const JsonCursor& reference, std::size_t count) {
     const Accessor a = accessor(source, reference);
     const bool unsigned_type =

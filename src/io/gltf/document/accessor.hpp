@@ -75,6 +75,9 @@ struct Accessor {
 /// malformed-input error (E-GLTF, E-BUFFER) and a limit error (E-LIMIT, when an accessor without bytes asks
 /// for more than 256 MiB of zeros).
 [[nodiscard]] AttributeData decode(Source& source, const Accessor& accessor);
+/// The same numbers as an attribute without a name.
+[[nodiscard]] Attribute decode_numbers(Source& source, const Accessor& accessor);
+[[nodiscard]] Attribute decode_numbers(Source& source, std::size_t accessor);
 /// The indices of a primitive, each below count. Throws a malformed-input error (E-INDEX).
 [[nodiscard]] std::vector<Index> decode_indices(Source& source, const JsonCursor& reference,
                                                 std::size_t count);

@@ -105,6 +105,10 @@ template <class... Members>
 
 /// Whether "extensionsUsed" has the extension.
 bool uses_extension(const Json& document, std::string_view name);
+/// True if the object has extensions or extras.
+inline bool has_additions(const Json& object) {
+    return object.contains("extensions") || object.contains("extras");
+}
 /// Adds a name to a top-level list ("extensionsUsed"), creating the list if necessary. An existing name stays
 /// in its place.
 void add_name(Json& document, const char* list, const std::string& name);

@@ -64,7 +64,6 @@ class Store {
     bool readable(std::size_t accessor) const;
     bool floats(std::size_t accessor) const;
     bool compressed(std::size_t accessor) const;
-    Attribute numbers(std::size_t accessor);
     std::vector<Vec3> positions(std::size_t accessor);
     std::size_t replace(std::size_t accessor, std::optional<Stored> stored);
     /// Returns the accessor for the key; calls make the first time.
@@ -121,17 +120,10 @@ bool Store::compressed(std::size_t accessor) const {
            compression_of(json_["bufferViews"][a["bufferView"].get<std::size_t>()]);
 }
 
-Attribute Store::numbers(std::size_t index) {
-    const Json reference = index;
-    const Accessor a =
-        accessor(builder_.current(), JsonCursor(reference, fmt::format("accessors[{}]", index)));
-    return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(builder_.current(), a)};
-}
-
 std::vector<Vec3> Store::positions(std::size_t accessor) {
     if (const auto exact = builder_.exact_positions.find(accessor); exact != builder_.exact_positions.end())
         return exact->second;
-    const Attribute a = numbers(accessor);
+    const Attribute a = decode_numbers(builder_.current(), accessor);
     if (a.components != 3)
         throw Error(ErrorKind::malformed, "E-GLTF",
                     fmt::format("accessors[{}]: POSITION must be VEC3", accessor));
@@ -261,7 +253,7 @@ std::size_t Store::position(std::size_t accessor, const std::optional<PositionGr
         small_integers_ = true;
         return replace(accessor, on_grid(positions(accessor), *grid));
     }
-    const Attribute a = numbers(accessor);
+    const Attribute a = decode_numbers(builder_.current(), accessor);
     return replace(accessor,
                    as_floats(a,
                              patch_.settings.whole_positions ? 0
@@ -299,7 +291,7 @@ std::size_t Store::sparse(std::size_t accessor, const Attribute& given, double f
 }
 
 std::size_t Store::displacement(std::size_t accessor, const std::optional<PositionGrid>& grid) {
-    const Attribute a = numbers(accessor);
+    const Attribute a = decode_numbers(builder_.current(), accessor);
     if (a.components != 3) return accessor;
     const bool dense = json_["accessors"][accessor].contains("bufferView");
     if (!grid)
@@ -327,7 +319,7 @@ std::size_t Store::vector(std::size_t accessor, bool unit) {
     const bool bytes = given["componentType"] == int(int8) && given.value("normalized", false) && unit &&
                        !compressed(accessor) && filters_ && quantize_.on && quantize_.normal_bits <= 8;
     if (!floats(accessor) && !bytes) return accessor;
-    const Attribute a = numbers(accessor);
+    const Attribute a = decode_numbers(builder_.current(), accessor);
     if (a.components < 3) return accessor;
     if (!quantize_.on) return replace(accessor, as_floats(a, finest_exponent(a), false));
     auto stored = unit && filters_ ? std::optional(octahedral(a, quantize_.normal_bits))
@@ -340,7 +332,7 @@ std::size_t Store::vector(std::size_t accessor, bool unit) {
 /// Texture coordinates and colours.
 std::size_t Store::fraction(std::size_t accessor, const std::string& semantic) {
     if (!readable(accessor) || !floats(accessor)) return accessor;
-    const Attribute a = numbers(accessor);
+    const Attribute a = decode_numbers(builder_.current(), accessor);
     if (!quantize_.on) return replace(accessor, as_floats(a, finest_exponent(a), false));
     const bool uv = begins(semantic, "TEXCOORD_");
     const int bits = uv ? quantize_.uv_bits : quantize_.colour_bits;
@@ -369,7 +361,7 @@ void Store::store_influences(Json& attributes) {
             names.push_back(fmt::format("{}{}", prefix, set));
             const auto accessor = attributes[names.back()].get<std::size_t>();
             if (!readable(accessor)) return;
-            Attribute a = numbers(accessor);
+            Attribute a = decode_numbers(builder_.current(), accessor);
             if (a.components != 4) return;
             (prefix[0] == 'J' ? all.joints : all.weights).push_back(std::move(a));
             key += fmt::format(" {}", accessor);

@@ -35,7 +35,6 @@ class Streams {
     void run();
 
   private:
-    Attribute numbers(std::size_t accessor);
     void store(Json& reference, const StreamUse& use);
     std::optional<Stored> stored(std::size_t accessor, const StreamUse& use);
     void find_limits(double ratio);
@@ -85,13 +84,6 @@ bool has_half_turns(const Attribute& keys, double limit) {
     return false;
 }
 
-Attribute Streams::numbers(std::size_t index) {
-    const Json reference = index;
-    const Accessor a =
-        accessor(builder_.current(), JsonCursor(reference, fmt::format("accessors[{}]", index)));
-    return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(builder_.current(), a)};
-}
-
 /// The coarsest exponent at which three numbers together are off by at most the limit.
 int exponent_within(double limit) {
     constexpr double root_of_three = 1.7320508075688773;
@@ -103,7 +95,7 @@ std::optional<Stored> Streams::stored(std::size_t index, const StreamUse& use) {
     const Json& given = json_["accessors"][index];
     if (!given.contains("bufferView") || given.contains("sparse")) return {};
     if (builder_.current().without_bytes(given["bufferView"].get<std::size_t>())) return {};
-    const Attribute numbers = this->numbers(index);
+    const Attribute numbers = decode_numbers(builder_.current(), index);
     const bool floats = given["componentType"] == int(float32);
     std::optional<Stored> coded;
     const bool turns = path == "turn" || (path == "rotation" && !has_half_turns(numbers, limit));
@@ -222,7 +214,8 @@ void Streams::store_instances(Json& attributes, bool on_grid) {
     if (on_grid && filters_) {
         double least = attributes.contains("SCALE") ? HUGE_VAL : 1;
         if (attributes.contains("SCALE")) {
-            const Attribute scales = numbers(attributes["SCALE"].get<std::size_t>());
+            const Attribute scales =
+                decode_numbers(builder_.current(), attributes["SCALE"].get<std::size_t>());
             for (std::size_t i = 0; i < scales.size(); ++i)
                 for (int c = 0; c < 3; ++c)
                     if (const double s = std::abs(scales.value(i, c)); s > 0) least = std::min(least, s);

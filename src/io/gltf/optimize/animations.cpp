@@ -44,8 +44,6 @@ std::string target_of(const Json& channel) {
                : "";
 }
 
-bool has_additions(const Json& object) { return object.contains("extensions") || object.contains("extras"); }
-
 double end_of(const Json& document, const Json& animation, const Json& channel) {
     const Json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
     const Json& times = document["accessors"][sampler["input"].get<std::size_t>()];
@@ -161,8 +159,7 @@ struct TrackReader {
         const std::vector<double> rest = rest_of(document["nodes"][node], path);
         if (rest.empty()) return {};
         const Json reference = sampler["output"];
-        const Accessor a = accessor(source, JsonCursor(reference, "output"));
-        const Attribute keys{"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
+        const Attribute keys = decode_numbers(source, accessor(source, JsonCursor(reference, "output")));
         constexpr double ratio =
             1e-5; // tolerance for scales and unit quaternions, below any rounding of positions
         const double tolerance = path == "translation" ? length_at(node) : ratio;
@@ -176,9 +173,7 @@ struct TrackReader {
 
 std::size_t DocumentOptimizer::drop_resting_tracks(double length) {
     if (!known_) return 0;
-    std::vector<Bytes> buffers = document_.buffers;
-    buffers.insert(buffers.end(), added_.begin(), added_.end());
-    Source source(json_, buffers);
+    Source source(json_, buffers());
     const TrackReader reader{json_, source, length};
     std::vector<std::vector<Track>> tracks(count_of(json_, "animations"));
     std::set<std::string> moving; // animated properties that some animation moves

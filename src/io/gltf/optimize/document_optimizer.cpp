@@ -56,8 +56,6 @@ void follow(const std::vector<std::size_t>& first, Json& reference) {
     if (old < first.size()) reference = first[old];
 }
 
-bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
-
 /// Nodes with more than a transform, nodes outside the scene (their children must not change), and the
 /// descendants of both.
 std::set<std::size_t> bound_nodes(Json& document) {
@@ -70,7 +68,7 @@ std::set<std::size_t> bound_nodes(Json& document) {
     for (const std::size_t n : parents_first(frames)) {
         const Json& node = document["nodes"][n];
         const int parent = frames[n].parent;
-        if (all || !shown[n] || has_more(node) || node.contains("camera") || node.contains("weights") ||
+        if (all || !shown[n] || has_additions(node) || node.contains("camera") || node.contains("weights") ||
             (parent >= 0 && bound.contains(static_cast<std::size_t>(parent))))
             bound.insert(n);
     }
@@ -82,7 +80,7 @@ std::set<std::size_t> bound_meshes(const Json& document) {
     std::set<std::size_t> bound;
     for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
         const Json& mesh = document["meshes"][m];
-        bool more = has_more(mesh) || mesh.contains("weights");
+        bool more = has_additions(mesh) || mesh.contains("weights");
         for (const Json& primitive : mesh["primitives"])
             more |= primitive.contains("targets") || !makes_triangles(JsonCursor(primitive, ""));
         if (more) bound.insert(m);
@@ -114,11 +112,16 @@ std::vector<std::size_t> DocumentOptimizer::merge_equal(bool keep_names) {
     return first;
 }
 
+const std::vector<Bytes>& DocumentOptimizer::buffers() {
+    if (added_.empty()) return document_.buffers;
+    all_buffers_ = document_.buffers;
+    all_buffers_.insert(all_buffers_.end(), added_.begin(), added_.end());
+    return all_buffers_;
+}
+
 std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
     if (may_name_accessors(json_)) return 0;
-    std::vector<Bytes> buffers = document_.buffers;
-    buffers.insert(buffers.end(), added_.begin(), added_.end());
-    Source source(json_, buffers);
+    Source source(json_, buffers());
     const std::size_t count = count_of(json_, "accessors");
     std::vector<unsigned> uses(count); // a bit for each kind: the validator forbids an accessor with several
     each_accessor_use(json_, [&](AccessorUse use, const std::string&, const JsonCursor& reference) {
@@ -129,7 +132,7 @@ std::size_t DocumentOptimizer::merge_equal_accessors(bool keep_names) {
     for (std::size_t a = 0; a < count; ++a) {
         Json item = json_["accessors"][a];
         if (!item.contains("bufferView") || item.contains("sparse") ||
-            (keep_names && item.contains("name")) || has_more(item) ||
+            (keep_names && item.contains("name")) || has_additions(item) ||
             source.without_bytes(item["bufferView"].get<std::size_t>()))
             continue;
         for (const char* key : {"name", "bufferView", "byteOffset", "min", "max"}) item.erase(key);

@@ -127,6 +127,8 @@ class DocumentOptimizer {
                                   const std::set<std::size_t>& named);
     std::size_t erase(const char* list, References references, const std::set<std::size_t>& dead);
     void drop_bounds();
+    /// The document's buffers, then the added ones. Valid until the next call.
+    const std::vector<Bytes>& buffers();
     std::size_t add(const char* list, Json item);
     /// Adds a view with a separate buffer.
     std::size_t add_view(Bytes bytes);
@@ -137,7 +139,8 @@ class DocumentOptimizer {
 
     const Document& document_;
     Json json_, before_;
-    std::vector<Bytes> added_; ///< buffers after the document's
+    std::vector<Bytes> added_;       ///< buffers after the document's
+    std::vector<Bytes> all_buffers_; ///< of buffers()
     bool known_ = true, all_ = true;
     TidyCounts erased_;
 };

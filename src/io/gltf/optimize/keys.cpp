@@ -146,12 +146,8 @@ TrackKeys resampled(const TrackKeys& keys, double rate) {
     return out;
 }
 
-/// True if a channel drives a node's own property and nothing unknown depends on its keys.
-bool is_plain(const Json& object) { return !object.contains("extensions") && !object.contains("extras"); }
-
 std::vector<double> reals(Source& source, const Json& reference) {
-    const Accessor a = accessor(source, JsonCursor(reference, "accessor"));
-    const Attribute numbers{"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
+    const Attribute numbers = decode_numbers(source, accessor(source, JsonCursor(reference, "accessor")));
     std::vector<double> out;
     out.reserve(numbers.size() * static_cast<std::size_t>(numbers.components));
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -160,14 +156,15 @@ std::vector<double> reals(Source& source, const Json& reference) {
 }
 
 /// Reads a sampler of a track of this path. None for cubic keys, and for keys that no viewer can play.
-std::optional<TrackKeys> linear_keys(Source& source, const Json& sampler, const std::string& path) {
+std::optional<TrackKeys> linear_keys(Source& source, const Json& sampler, const std::string& path,
+                                     const std::vector<double>& times) {
     const std::string way = sampler.value("interpolation", "LINEAR");
     if (way != "LINEAR" && way != "STEP") return {};
     TrackKeys keys;
     keys.steps = way == "STEP";
     keys.turns = path == "rotation";
     keys.weights = path == "weights";
-    for (const double t : reals(source, sampler.at("input"))) keys.times.push_back(static_cast<float>(t));
+    keys.times.assign(times.begin(), times.end());
     keys.values = reals(source, sampler.at("output"));
     if (keys.times.empty() || keys.values.size() % keys.times.size() != 0) return {};
     keys.width = keys.values.size() / keys.times.size();
@@ -194,8 +191,8 @@ std::map<std::size_t, SamplerUse> sampler_uses(const Json& animation, const Moti
         const auto [at, first] = uses.try_emplace(sampler);
         SamplerUse& use = at->second;
         const std::string path = target.value("path", "");
-        use.plain = use.plain && is_plain(channel) && is_plain(target) && target.contains("node") &&
-                    path != "pointer" && (first || use.path == path);
+        use.plain = use.plain && !has_additions(channel) && !has_additions(target) &&
+                    target.contains("node") && path != "pointer" && (first || use.path == path);
         use.path = path;
         if (use.plain) use.limit = std::min(use.limit, limits.of(target["node"].get<std::size_t>(), path));
     }
@@ -225,7 +222,8 @@ std::vector<ChangedKeys> new_keys(Source& source, const Json& animation, const M
         const std::vector<double> times = reals(source, sampler.at("input"));
         const float end = times.empty() ? 0 : static_cast<float>(times.back());
         last = std::max(last, end);
-        auto keys = use.plain && is_plain(sampler) ? linear_keys(source, sampler, use.path) : std::nullopt;
+        auto keys = use.plain && !has_additions(sampler) ? linear_keys(source, sampler, use.path, times)
+                                                         : std::nullopt;
         const std::size_t before = times.size();
         if (keys && rate) *keys = resampled(*keys, *rate);
         const auto needed = keys ? needed_keys(*keys, use.limit) : std::vector<std::size_t>{};
@@ -273,14 +271,11 @@ std::size_t DocumentOptimizer::add_keys(Bytes& bytes, const std::vector<float>& 
 KeyCounts DocumentOptimizer::drop_keys(double ratio, std::optional<double> rate) {
     KeyCounts counts;
     if (!known_ || !json_.contains("animations")) return counts;
-    std::vector<Bytes> buffers = document_.buffers;
-    buffers.insert(buffers.end(), added_.begin(), added_.end());
-    const Json given = json_;
-    Source source(given, buffers);
+    Source source(json_, buffers());
     std::vector<std::vector<ChangedKeys>> changes; // [animations]
     try {
-        const MotionLimits limits(source, node_frames(given), ratio);
-        for (const Json& animation : given["animations"])
+        const MotionLimits limits(source, node_frames(json_), ratio);
+        for (const Json& animation : json_["animations"])
             changes.push_back(new_keys(source, animation, limits, rate, counts));
     } catch (const Error& error) { // viewers cannot play invalid animations either
         if (error.kind() != ErrorKind::malformed) throw;

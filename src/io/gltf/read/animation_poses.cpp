@@ -103,11 +103,6 @@ std::vector<double> numbers_of(const Attribute& a) {
     return all;
 }
 
-Attribute decoded(Source& source, const JsonCursor& reference) {
-    const Accessor a = accessor(source, reference);
-    return {"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
-}
-
 /// At most `most` of the items, evenly, with the first and the last.
 template <class T>
 std::vector<T> evenly(const std::vector<T>& all, std::size_t most) {
@@ -189,8 +184,8 @@ class AnimationPoses::Tracks {
                         property->node,
                         property->path,
                         place.text_or("interpolation", "LINEAR"),
-                        numbers_of(decoded(source_, place.at("input"))),
-                        decoded(source_, place.at("output"))};
+                        numbers_of(decode_numbers(source_, accessor(source_, place.at("input")))),
+                        decode_numbers(source_, accessor(source_, place.at("output")))};
             const std::size_t expected = track.path == "rotation" ? 4 : track.path == "weights" ? 1 : 3;
             if (!track.times.empty() && track.width() >= expected &&
                 std::is_sorted(track.times.begin(), track.times.end()))

@@ -45,8 +45,7 @@ Instances read_instances(Source& source, const JsonCursor& attributes) {
         }
         if (a.components != known->components)
             attributes.fail(fmt::format("{} must have {} numbers", name, known->components));
-        all.*known->numbers =
-            Attribute{"", Domain::wedge, Role::generic, a.components, a.normalised, decode(source, a)};
+        all.*known->numbers = decode_numbers(source, a);
     }
     return all;
 }

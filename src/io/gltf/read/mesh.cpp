@@ -6,7 +6,6 @@
 #include "io/gltf/document/nodes.hpp"
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/read/features.hpp"
-#include "io/gltf/read/lines.hpp"
 #include "parallel/memory.hpp"
 #include "parallel/parallel.hpp"
 
@@ -191,6 +190,16 @@ std::size_t draco_block(Merge& merge, const JsonCursor& primitive, const JsonCur
     add_targets(merge, block, primitive);
     add_vertices(merge, block);
     return merge.blocks.size() - 1;
+}
+
+/// The two ends of each line of a primitive with this mode. An incomplete last pair of a list is ignored.
+std::vector<Index> ends_of_lines(const std::vector<Index>& indices, std::uint64_t mode) {
+    enum Mode : std::uint64_t { list = 1, loop = 2 };
+    std::vector<Index> ends;
+    for (std::size_t i = 0; i + 1 < indices.size(); i += mode == list ? 2 : 1)
+        ends.insert(ends.end(), {indices[i], indices[i + 1]});
+    if (mode == loop && indices.size() > 1) ends.insert(ends.end(), {indices.back(), indices.front()});
+    return ends;
 }
 
 /// Converts strips and fans to a list, without the degenerate triangles that connect strips.

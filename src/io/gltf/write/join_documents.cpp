@@ -7,6 +7,15 @@
 
 namespace facetmill::io::gltf {
 
+std::size_t variant_number(Json& all, const Json& variant) {
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Json& known) {
+        return known.value("name", "") == variant.value("name", "");
+    });
+    const auto at = static_cast<std::size_t>(same - all.begin());
+    if (same == all.end()) all.push_back(variant);
+    return at;
+}
+
 namespace {
 
 constexpr const char* lights_extension = "KHR_lights_punctual";
@@ -139,13 +148,7 @@ std::vector<std::size_t> append_variants(Json& document, Json& other) {
     if (!variants) return numbers;
     Json& all = document["extensions"][variants_extension]["variants"];
     if (!all.is_array()) all = Json::array();
-    for (const Json& variant : *variants) {
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Json& known) {
-            return known.value("name", "") == variant.value("name", "");
-        });
-        numbers.push_back(static_cast<std::size_t>(same - all.begin()));
-        if (same == all.end()) all.push_back(variant);
-    }
+    for (const Json& variant : *variants) numbers.push_back(variant_number(all, variant));
     return numbers;
 }
 

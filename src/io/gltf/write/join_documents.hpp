@@ -21,4 +21,7 @@ struct JoinedDocuments {
 /// joined.
 [[nodiscard]] std::optional<JoinedDocuments> join_documents(const Scene& scene, const BaseDocument& base);
 
+/// The number of the variant with this name in a document's list of variants. A new variant is appended.
+[[nodiscard]] std::size_t variant_number(Json& all, const Json& variant);
+
 } // namespace facetmill::io::gltf

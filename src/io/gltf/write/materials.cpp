@@ -1,4 +1,5 @@
 #include "io/gltf/document/item_references.hpp"
+#include "io/gltf/write/join_documents.hpp"
 #include "io/gltf/write/patch.hpp"
 
 #include <algorithm>
@@ -130,12 +131,7 @@ std::optional<std::size_t> variant_for(MaterialCopies& copies, const Json& other
     copies.patch.builder.use_extension(variants_extension, false);
     Json& all = copies.patch.builder.json()["extensions"][variants_extension]["variants"];
     if (!all.is_array()) all = Json::array();
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Json& known) {
-        return known.value("name", "") == variant.value("name", "");
-    });
-    const auto at = static_cast<std::size_t>(same - all.begin());
-    if (same == all.end()) all.push_back(variant);
-    return at;
+    return variant_number(all, variant);
 }
 
 /// The scene's material with this number in a document; none if a stage has removed it.
