@@ -167,7 +167,7 @@ class Baker {
                     const double share = footprint_share / s_.samples;
                     steps = {steps.right * share, steps.down * share};
                 }
-                add_sample(place, steps, first + i, sum, hint, counts);
+                add_sample(place, steps, first + i, sum, hint);
             }
             if (sum.weight == 0) continue;
             ++counts.covered;
@@ -178,7 +178,7 @@ class Baker {
     }
 
     void add_sample(const TexelPlace& place, const TexelSteps& steps, std::size_t texel, TexelSum& sum,
-                    Index& hint, Counts& counts) {
+                    Index& hint) {
         const TargetPoint at = target_.at(place.triangle, place.weights);
         const Projection found = projector_(at.position, at.direction, hint);
         if (found.place.face == none) return;

@@ -3,19 +3,11 @@
 
 #include "geometry/cgal/convex_hull.hpp"
 #include "geometry/hull/hull.hpp"
+#include "geometry/polygon/flat_hull.hpp"
 
 #include <optional>
 
 namespace facetmill {
-
-/// A point in a plane, and the number of the point that it comes from.
-struct FlatPoint {
-    double x = 0, y = 0;
-    Index of = none;
-};
-/// The corners of the convex hull in the plane, anticlockwise, with exact signs (A. M. Andrew, "Another
-/// efficient algorithm for convex hulls in two dimensions", 1979). The points must not be collinear.
-[[nodiscard]] std::vector<FlatPoint> flat_hull(std::vector<FlatPoint> points);
 
 /// Whether every point is inside or on the convex surface, exactly. O(points * triangles), parallel.
 [[nodiscard]] bool encloses(const ConvexSurface& surface, std::span<const Vec3> points);

@@ -1,27 +1,15 @@
 #include "geometry/unwrap/hull.hpp"
 
-#include "base/math/predicates.hpp"
+#include "geometry/polygon/flat_hull.hpp"
 
 namespace facetmill::unwrap_room {
 
-std::vector<Vec2> convex_hull_of(std::vector<Vec2> points) {
-    std::sort(points.begin(), points.end(),
-              [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() < 3) return points;
+std::vector<Vec2> convex_hull_of(const std::vector<Vec2>& points) {
+    std::vector<FlatPoint> flat;
+    flat.reserve(points.size());
+    for (const Vec2& p : points) flat.push_back({p.x, p.y, none});
     std::vector<Vec2> hull;
-    const auto extend = [&](const Vec2& p, std::size_t least) {
-        while (hull.size() > least) {
-            const Vec2 &a = hull[hull.size() - 2], &b = hull.back();
-            if (orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y) > 0) break;
-            hull.pop_back();
-        }
-        hull.push_back(p);
-    };
-    for (const Vec2& p : points) extend(p, 1);
-    const std::size_t lower = hull.size();
-    for (std::size_t i = points.size() - 1; i-- > 0;) extend(points[i], lower);
-    hull.pop_back();
+    for (const FlatPoint& p : flat_hull(std::move(flat))) hull.push_back({p.x, p.y});
     return hull;
 }
 
@@ -39,7 +27,6 @@ Vec2 axis_of_smallest_rectangle(const std::vector<Vec2>& hull) {
             for (std::size_t step = 0; step < n; ++step, k = (k + 1) % n)
                 if (!(sign * dot(along, hull[(k + 1) % n]) > sign * dot(along, hull[k]))) break;
         };
-        if (i == 0) right = top = left = 1 % n;
         advance(right, u, 1);
         if (i == 0) top = right;
         advance(top, v, 1);

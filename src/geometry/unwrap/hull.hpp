@@ -7,7 +7,7 @@ namespace facetmill::unwrap_room {
 
 /// The corners of the convex hull, anticlockwise (A. M. Andrew, "Another efficient algorithm for convex hulls
 /// in two dimensions", 1979).
-[[nodiscard]] std::vector<Vec2> convex_hull_of(std::vector<Vec2> points);
+[[nodiscard]] std::vector<Vec2> convex_hull_of(const std::vector<Vec2>& points);
 
 /// The unit vector along the longer side of the smallest rectangle around a hull (G. Toussaint, "Solving
 /// geometric problems with the rotating calipers", 1983).

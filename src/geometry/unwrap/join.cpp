@@ -289,7 +289,7 @@ class Joiner {
         std::vector<Vec2> points;
         points.reserve(flat.border().size());
         for (const BorderEdge& e : flat.border()) points.push_back(flat.points()[e.from]);
-        const std::vector<Vec2> hull = convex_hull_of(std::move(points));
+        const std::vector<Vec2> hull = convex_hull_of(points);
         const double share = area / whole_area_;
         if (area < (share < small_share ? least_solid_small : least_solid) * polygon::signed_area(hull))
             return false;

@@ -13,8 +13,8 @@ struct PackItem {
     std::vector<Index> corners; ///< points, three per triangle
     std::vector<Vec2> points;
     std::vector<BorderEdge> border; ///< for the test after rounding
-    Vec2 size;       ///< of its box
-    double area = 0; ///< of its triangles
+    Vec2 size;                      ///< of its box
+    double area = 0;                ///< of its triangles
 };
 
 /// Where a chart goes: quarter turns, then a shift, in cells.

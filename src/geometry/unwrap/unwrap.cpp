@@ -27,7 +27,7 @@ PackItem item_of(const UnwrapSurface& surface, Gluing& gluing, const Chart& char
     std::vector<Vec2> outline;
     outline.reserve(out.border.size());
     for (const BorderEdge& e : out.border) outline.push_back(points[e.from]);
-    const Vec2 u = axis_of_smallest_rectangle(convex_hull_of(std::move(outline)));
+    const Vec2 u = axis_of_smallest_rectangle(convex_hull_of(outline));
     Vec2 low{HUGE_VAL, HUGE_VAL};
     for (Vec2& p : points) {
         p = {dot(u, p), cross(u, p)};
