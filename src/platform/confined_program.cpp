@@ -1,5 +1,6 @@
 #include "platform/confined_program.hpp"
 
+#include "platform/address_sanitizer.hpp"
 #include "platform/file_bytes.hpp"
 #include "platform/sandbox.hpp"
 
@@ -80,7 +81,7 @@ struct Streams {
     set_limit(RLIMIT_CORE, 0);
     set_limit(RLIMIT_FSIZE, 0);
     set_limit(RLIMIT_NOFILE, open_files);
-    set_limit(RLIMIT_AS, settings.memory);
+    if (!has_address_sanitizer) set_limit(RLIMIT_AS, settings.memory);
     ::execve(own.c_str(), texts.data(), environment.data());
     constexpr int not_started = 127;
     ::_exit(not_started);

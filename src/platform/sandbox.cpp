@@ -1,5 +1,6 @@
 #include "platform/sandbox.hpp"
 
+#include "platform/address_sanitizer.hpp"
 #include "platform/file_names.hpp"
 #include "platform/file_status.hpp"
 #include "platform/nearest_existing.hpp"
@@ -17,25 +18,13 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#if defined(__SANITIZE_ADDRESS__)
-#define FACETMILL_LEAKS_ARE_SOUGHT 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define FACETMILL_LEAKS_ARE_SOUGHT 1
-#endif
-#endif
-
 namespace facetmill {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-#ifdef FACETMILL_LEAKS_ARE_SOUGHT
-constexpr bool possible = false;
-#else
-constexpr bool possible = true;
-#endif
+constexpr bool possible = !has_address_sanitizer;
 
 #if defined(__x86_64__) || defined(__aarch64__)
 constexpr bool filters_calls = possible;
