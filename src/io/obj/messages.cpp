@@ -18,6 +18,9 @@ const RegisterMessages obj_messages{
      "cannot represent. Or glTF materials have properties that MTL cannot represent.",
      "Put the library in the folder of the OBJ file, or allow a common folder with `--asset-root DIR`. The "
      "message names the statements that are lost."},
+    {"W-OBJECTS",
+     "Objects in an OBJ file share vertices. Each object becomes a part with its own copies of them.",
+     "Use `merge` to make one connected surface of the parts."},
 };
 
 } // namespace facetmill

@@ -41,10 +41,10 @@ struct Statements {
 /// Parses the text, in parallel over chunks of lines. Throws malformed (E-OBJ, E-NAN) with the line.
 [[nodiscard]] Statements parse(const Input& input, const ReadSettings& settings);
 
-/// Each `o` makes a part. Objects that share vertices stay a single part with the face attribute "object",
-/// so that the surface stays connected. In a file without `o`, `g` makes parts instead. Other groups lose
-/// their names (note W-GROUPS). If there are several, the face attributes "group" and "smoothing_group"
-/// number them. `usemtl` makes materials and primitives. Texture coordinates and normals make wedges. Lines
+/// Each `o` makes a part. Vertices that objects share are copied (note W-OBJECTS). In a file without `o`, `g`
+/// makes parts instead, unless groups share vertices. Other groups lose their names (note W-GROUPS). If there
+/// are several, the face attributes "group" and "smoothing_group" number them. `usemtl` makes materials and
+/// primitives. Texture coordinates and normals make wedges. Lines
 /// (`l`) make a separate part per object, with the colours of their vertices.
 [[nodiscard]] Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 [[nodiscard]] Written write(const Scene& scene, const WriteSettings& settings);

@@ -14,7 +14,9 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numeric>
+#include <span>
 
 namespace facetmill::io::obj {
 
@@ -217,8 +219,54 @@ void add_groups(Mesh& mesh, const Statements& s, bool numbered, const std::strin
     mesh.attributes.push_back(numbers("smoothing_group", std::move(of_face)));
 }
 
+/// Vertices, or wedges: each is of the first object that uses it, and the others get copies at the end.
+class Owned {
+  public:
+    explicit Owned(std::size_t count) : owner_(count, none), source_(count) {
+        std::iota(source_.begin(), source_.end(), Index{0});
+    }
+    Index of(Index element, Index object) {
+        if (owner_[element] == none) owner_[element] = object;
+        if (owner_[element] == object) return element;
+        const auto [at, fresh] = copies_.try_emplace({element, object}, static_cast<Index>(source_.size()));
+        if (fresh) source_.push_back(element);
+        return at->second;
+    }
+    /// Of each element and copy, the element.
+    const std::vector<Index>& source() const { return source_; }
+    std::size_t copies() const { return copies_.size(); }
+
+  private:
+    std::vector<Index> owner_, source_;
+    std::map<std::pair<Index, Index>, Index> copies_;
+};
+
+/// Gives each object vertices and wedges of its own. Returns the number of vertices that were copied.
+std::size_t copy_shared(Mesh& mesh, const std::vector<Index>& object_of_face) {
+    Owned vertices(mesh.vertex_count()), wedges(mesh.wedge_count());
+    const bool seams = mesh.has_seams();
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            Index& w = mesh.corners[c];
+            const Index v = vertices.of(vertices.source()[mesh.vertex_of_wedge(w)], object_of_face[f]);
+            w = wedges.of(w, object_of_face[f]);
+            if (!seams) continue; // each wedge is its vertex, before and after
+            if (w == mesh.wedge_vertex.size()) mesh.wedge_vertex.push_back(v);
+            mesh.wedge_vertex[w] = v;
+        }
+    if (wedges.copies() == 0) return 0;
+    for (Attribute& a : mesh.attributes)
+        if (a.domain != Domain::face)
+            a = selected(a, a.domain == Domain::wedge ? wedges.source() : vertices.source());
+    const std::size_t before = mesh.vertex_count();
+    mesh.positions.reserve(vertices.source().size());
+    for (const Index v : std::span(vertices.source()).subspan(before))
+        mesh.positions.push_back(mesh.positions[v]);
+    return vertices.copies();
+}
+
 /// The object (or group) of each vertex: the object of its faces, or the object at its declaration if it has
-/// no faces. Empty if two objects share a vertex.
+/// no faces. Empty if two groups share a vertex.
 std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, Event::Kind kind,
                                       const Statements& s) {
     std::vector<Index> object(mesh.vertex_count(), none);
@@ -314,17 +362,23 @@ void compact_primitives(Mesh& mesh) {
 /// The division into parts: by objects, or by groups in a file without objects.
 struct Division {
     Naming names;
-    std::vector<Index> of_vertex; ///< empty if objects share vertices and stay a single part
+    std::vector<Index> of_vertex; ///< empty if groups share vertices and stay a single part
     Event::Kind kind = Event::Kind::object;
     bool divides() const { return !of_vertex.empty(); }
 };
 
-Division division_of(const Mesh& mesh, const Statements& s) {
+Division divide(Mesh& mesh, const Statements& s, const std::string& file, ReadLog& log) {
     Division d;
     d.names = naming(s, d.kind, "");
     if (d.names.names == std::vector<std::string>{""}) {
         d.kind = Event::Kind::group;
         d.names = naming(s, d.kind, "");
+    } else if (const std::size_t copies = copy_shared(mesh, d.names.of_face); copies > 0) {
+        log.warnings.push_back({Severity::note, "W-OBJECTS",
+                                fmt::format("objects share vertices: {} are copied so that each object is a "
+                                            "part, and merge joins the parts again",
+                                            copies),
+                                file_mark(file), ""});
     }
     if (d.names.names.size() > 1) d.of_vertex = object_of_vertices(mesh, d.names, d.kind, s);
     return d;
@@ -346,8 +400,6 @@ void add_each(Scene& scene, const Mesh& mesh, const Division& d) {
 void add_parts(Scene& scene, Mesh mesh, const Division& division) {
     if (division.divides()) return add_each(scene, mesh, division);
     const auto& names = division.names.names;
-    if (division.kind == Event::Kind::object && names.size() > 1)
-        mesh.attributes.push_back(numbers("object", division.names.of_face));
     Part& part = scene.parts.emplace_back();
     if (names.size() == 1) part.name = names[0];
     part.mesh = std::move(mesh);
@@ -521,7 +573,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     std::vector<Part> lines;
     if (any_lines) lines = parts_of_lines(scene, s, mesh, maker);
     maker.finish(scene);
-    const Division division = division_of(mesh, s);
+    const Division division = divide(mesh, s, input.name(), log);
     add_groups(mesh, s, !(division.divides() && division.kind == Event::Kind::group), input.name(), log);
     add_parts(scene, std::move(mesh), division);
     if (any_lines) drop_ends(scene);

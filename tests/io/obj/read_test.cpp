@@ -111,6 +111,34 @@ TEST_CASE("groups that share vertices, and those within an object, are numbers o
     CHECK(read_bytes(written(unnamed, "obj").files.at(0).bytes, "obj").parts.size() == 1);
 }
 
+TEST_CASE("objects that share vertices are parts with copies of them", "[io][obj]") {
+    const std::string uvs = "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\n";
+    // The corner 3/3 is of all three objects, the corner 2/2 of the first and the third, 2/4 of the second
+    // and the third.
+    for (const std::string& faces :
+         {std::string("o a\nf 1 2 3\no b\nf 3 2 4\no c\nf 3 4 2\n"),
+          std::string("o a\nf 1/1 2/2 3/3\no b\nf 3/3 2/4 4/1\no c\nf 3/3 4/1 2/4\nf 3/3 4/1 2/2\n")}) {
+        INFO(faces);
+        const Loaded read(points + uvs + faces);
+        REQUIRE(read.scene.parts.size() == 3);
+        const Loaded alone(points + uvs + "o a\nf 3 2 4\n");
+        for (std::size_t p = 0; p < 3; ++p)
+            CHECK(read.scene.parts[p].name == std::string(1, static_cast<char>('a' + p)));
+        const auto corner = [&](std::size_t part, Index face, Index place) {
+            const Mesh& mesh = read.scene.parts[part].mesh;
+            return mesh.positions[mesh.vertex(mesh.face_begin(face) + place)];
+        };
+        const Mesh all = alone.scene.parts.at(0).mesh;
+        for (Index c = 0; c < 3; ++c) {
+            CHECK(corner(1, 0, c) == all.positions[all.vertex(c)]);
+            CHECK(corner(2, 0, (3 - c) % 3) == all.positions[all.vertex(c)]);
+        }
+        REQUIRE(read.log.warnings.size() == 1);
+        CHECK(read.log.warnings[0].id == "W-OBJECTS");
+        CHECK(read.scene.parts[1].mesh.vertex_count() == 3);
+    }
+}
+
 TEST_CASE("a vertex without faces is of the group that it stands in", "[io][obj]") {
     const Loaded two(
         "g a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\ng b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 5 6 7\n");
