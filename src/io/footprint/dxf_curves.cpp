@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 namespace facetmill::io {
 
@@ -117,9 +118,10 @@ class DxfPlacer {
     DxfCurves place() {
         place(file_.drawing, {{}, "0", 0});
         if (out_.curves.empty()) { // some programs draw everything on the paper sheet
-            out_ = {};
+            DxfCurves of_model = std::exchange(out_, {});
             is_paper_ = true;
             place(file_.drawing, {{}, "0", 0});
+            if (out_.curves.empty()) return of_model;
         }
         return std::move(out_);
     }
@@ -201,7 +203,7 @@ class DxfPlacer {
         if (e.type == "INSERT")
             insert(e, into.depth, layer);
         else if (!curve(e, first_vertex, end_vertices))
-            ++out_.unused[std::string(printable_type(e.type))];
+            ++out_.unused[e.type == "SPLINE" ? "fit-point SPLINE" : std::string(printable_type(e.type))];
     }
 
     void insert(const DxfEntity& e, int depth, const std::string& layer) {

@@ -75,8 +75,8 @@ class DxfFootprint {
         out_.rings = std::move(chains.rings);
         if (!open.empty()) warn_of_open(open, chains.open.front());
         if (!curves_.unused.empty())
-            warn(fmt::format("{} left out: only lines, arcs, circles, ellipses, splines and polylines form "
-                             "outlines",
+            warn(fmt::format("{} left out: only lines, arcs, circles, ellipses, polylines and splines with "
+                             "control points form outlines",
                              are(entities_text(curves_.unused), curves_.unused)),
                  "if the outline needs them, explode them into such entities in the CAD program");
         if (curves_.hidden > 0)

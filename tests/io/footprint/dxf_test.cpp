@@ -106,6 +106,12 @@ TEST_CASE("curves of a DXF keep their shapes", "[io]") {
     CHECK(area_of_dxf(read_dxf(behind)) == Approx(circle_area(5) / 2));
     CHECK(refusal_of_dxf(dxf_entities().group(0, "SPLINE").group(71, "3").group(40, 0.0).point(10, 0, 0)) ==
           "malformed [E-DXF] plate.dxf:6: a spline has knots or weights that do not fit its points");
+    // A spline of points on it is named, though the sheet of paper has an entity, too.
+    auto fitted = dxf_entities();
+    fitted.group(0, "SPLINE").group(71, "3").point(11, 0, 0).point(11, 5, 5).point(11, 0, 0);
+    fitted.group(0, "VIEWPORT_OF_ANOTHER").group(67, "1");
+    CHECK(refusal_of_dxf(fitted).find("1 fit-point SPLINE entity is left out: only lines,") !=
+          std::string::npos);
 }
 
 TEST_CASE("blocks of a DXF are drawn where they are inserted", "[io]") {
