@@ -183,6 +183,9 @@ TEST_CASE("textures: an atlas unrolls repeats as samplers do", "[stages]") {
     run = run_stage("textures", "{atlas: true, unroll: 1}", squares(twice, {a, b}));
     CHECK(run.record.result["atlas"]["made"].empty());
     CHECK(reason(run, 0) == "its texture repeats 2 x 1 times, more than unroll: 1");
+    const std::vector<Square> strip = {{{0, 0}, {8, 0.25F}, coloured(0)}, {{}, {1, 1}, coloured(1)}};
+    run = run_stage("textures", "{atlas: true}", squares(strip, {a, b}));
+    CHECK(reason(run, 0) == "its texture repeats 8 x 0.25 times, more than unroll: 4");
 }
 
 TEST_CASE("textures: an atlas has only the used part of a texture", "[stages]") {

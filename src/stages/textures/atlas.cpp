@@ -412,10 +412,10 @@ void AtlasMaker::drop_merged() {
         io::DocumentOptimizer optimizer(*scene_.documents[d]);
         if (!optimizer.numbers_are_known()) continue;
         io::TidyRequest request;
-        request.all = false;
         for (const Part& part : scene_.parts)
             if (part.document == static_cast<int>(d) && part.source_mesh >= 0)
                 request.meshes.insert(static_cast<std::size_t>(part.source_mesh));
+        request.all = request.meshes.empty(); // it only holds materials, or its meshes were merged
         for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
             const Material& material = scene_.materials[m];
             if (material.document == static_cast<int>(d) && material.index >= 0 &&

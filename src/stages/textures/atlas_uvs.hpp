@@ -15,7 +15,8 @@ struct UvExtent {
     Uv low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
     double uv_area = 0, world_area = 0;
     [[nodiscard]] double side(std::size_t axis) const { return high[axis] - low[axis]; }
-    [[nodiscard]] double copies() const { return side(0) * side(1); }
+    /// How many copies of the texture it needs.
+    [[nodiscard]] double copies() const { return std::max(1.0, side(0)) * std::max(1.0, side(1)); }
     void add(const UvExtent& other);
 };
 
