@@ -299,9 +299,11 @@ io::Bytes AtlasMaker::encoded_map(const AtlasPlan& plan, AtlasMap map, MadeAtlas
                                                        : for_colours(o_);
     const std::string type = s.format == Format::keep ? format_for(plan, map) : "image/png";
     const io::LossSettings loss{s.quality, s.lossless, map == AtlasMap::normal || map == AtlasMap::surface};
+    const bool encoded_again = s.format != Format::keep || o_.repack;
     io::Bytes bytes = type == "image/jpeg"   ? io::encoded_jpeg(pixels, loss)
                       : type == "image/webp" ? io::encoded_webp(pixels, loss)
-                                             : io::encoded_png_quickly(pixels);
+                      : encoded_again        ? io::encoded_png_quickly(pixels)
+                                             : io::encoded_png(pixels);
     made.images.push_back({texture, pixels.width, pixels.height, bytes.size()});
     return bytes;
 }
