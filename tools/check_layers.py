@@ -61,6 +61,7 @@ PUBLIC = {
     "io/gltf/contents/resolved_materials.hpp": "materials as pictures draw them",
     "io/gltf/read/animation_poses.hpp": "poses in which simplify compares",
     "io/gltf/read/skinned_pose.hpp": "scenes as pictures show them",
+    "io/gltf/contents/atlas_material.hpp": "materials that textures merges",
     "io/gltf/contents/textures.hpp": "the images of documents, for textures",
     "io/gltf/optimize/document_optimizer.hpp": "documents without what nothing uses, for optimize and tangents",
     "io/tileset/tiles.hpp": "the files of a tileset, for cells, which write them one by one",

@@ -24,7 +24,7 @@ std::size_t MaterialDocument::find_or_add(const char* list, const Json& value) {
 }
 
 std::size_t MaterialDocument::texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes,
-                                      bool clamp, bool is_file) {
+                                      bool clamp, bool is_file, bool nearest) {
     constexpr int repeat = 10497, clamp_to_edge = 33071;
     std::filesystem::path path = image;
     std::string uri = uri_of(path);
@@ -34,7 +34,9 @@ std::size_t MaterialDocument::texture(const std::filesystem::path& image, const 
         uri = uri_of(path);
     }
     const int wrap = clamp ? clamp_to_edge : repeat;
-    const std::size_t sampler = find_or_add("samplers", {{"wrapS", wrap}, {"wrapT", wrap}});
+    Json sampling = {{"wrapS", wrap}, {"wrapT", wrap}};
+    if (nearest) sampling["magFilter"] = sampling["minFilter"] = 9728;
+    const std::size_t sampler = find_or_add("samplers", sampling);
     const std::size_t source = find_or_add("images", {{"uri", uri}});
     if (source == images_.size()) images_.push_back({path, "", is_file && path == image});
     return find_or_add("textures", {{"sampler", sampler}, {"source", source}});

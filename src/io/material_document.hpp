@@ -16,9 +16,9 @@ class MaterialDocument {
 
     /// The index of a texture of the image, which is named by its path relative to the file. clamp: do not
     /// repeat the image outside [0, 1]. A different image with the same name gets a number. is_file: the
-    /// bytes come from the file with this name.
+    /// bytes come from the file with this name. nearest: sample it without interpolation.
     std::size_t texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes, bool clamp,
-                        bool is_file = true);
+                        bool is_file = true, bool nearest = false);
     /// Adds a glTF material and lists the extensions that it uses. Returns the material for a scene that has
     /// `documents` documents so far.
     Material add(Json material, std::size_t documents);

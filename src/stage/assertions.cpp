@@ -142,12 +142,11 @@ bool hint_fits(const Property& property, const Bound& bound, const Properties& p
                                         : !(bound.min && *value < *bound.min);
 }
 
-/// True for a point cloud and a property that only faces or lines have, or a number of points: no stage can
-/// help.
+/// True for a point cloud or nothing, and a property that only faces or lines have, or a number of points: no
+/// stage can help.
 bool lacks_faces(const Property& property, const Properties& properties) {
-    return properties.faces == 0 && properties.lines == 0 && properties.vertices > 0 &&
-           !property.of_scene() && property.kind != PropertyKind::box &&
-           (property.of_faces || !property.measure);
+    return properties.faces == 0 && properties.lines == 0 && !property.of_scene() &&
+           property.kind != PropertyKind::box && (property.of_faces || !property.measure);
 }
 
 /// True if a measured property must equal a number. This is rarely intended, unless the number is 0.
@@ -178,7 +177,10 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         if (!check.passed && asks_exactly(property, assertion.bound))
             check.hint = "a bare value requires exactly this value; use min for at least, max for at most";
         else if (!check.passed && lacks_faces(property, properties))
-            check.hint = "the scene has points but no faces, and most checks and stages need faces";
+            check.hint = properties.vertices > 0
+                             ? "the scene has points but no faces, and most checks and stages need faces"
+                             : "no faces are left; -v shows which stage removed the last ones, for example "
+                               "faces without area";
         else if (!check.passed && hint_fits(property, assertion.bound, properties))
             check.hint = property.hint;
         check.where = assertion.where;

@@ -128,6 +128,15 @@ class Ready(Case):
             self.assertIn("-D input=", self.mill("run", path.stem, expect=2).stderr)
             self.mill("run", path.stem, "-D", "input=scan.ply", "--quiet")
 
+    def test_game_ready_refuses_what_has_no_faces(self):
+        # A cloud, and a face without area, which clean removes.
+        for name, text, hint in (("cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "points but no faces"),
+                                 ("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no faces are left")):
+            self.write(name, text)
+            said = self.mill("run", "game-ready", "-q", "-D", f"input={name}", "-D", "texture=64", expect=1).stderr
+            self.assertIn("'faces' must be at least 1, found 0", said)
+            self.assertIn(hint, said)
+
     def test_repair_makes_a_solid_of_what_overlaps_and_has_holes_and_fins(self):
         def cube(low, high, first):
             corners = [(x, y, z) for x in (low, high) for y in (low, high) for z in (low, high)]

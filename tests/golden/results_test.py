@@ -104,6 +104,7 @@ RUNS = [
     "load flipped.off ! split ! simplify 60%",
     "generate icosphere --subdivisions 4 ! write tileset.json --tiles.faces 500 --draco",
     "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
+    "load atlas.gltf ! textures 128 --atlas ! optimize ! write at.glb",
     "load cubes.obj ! optimize",
     "load cubes.obj ! normals --with open.off ! remesh 0.3",
     "load cubes.obj ! clean --hidden --components.min_size 1",
@@ -157,6 +158,12 @@ class Results(Case):
         uvs = base64.b64encode(struct.pack("<6f", 0, 0, 1, 0, 0, 1)).decode()
         mapped["buffers"].append({"byteLength": 24, "uri": "data:application/octet-stream;base64," + uvs})
         self.write("mapped.gltf", json.dumps(mapped))
+        # The same triangle with three materials, of which two can be merged.
+        first, second = mapped["materials"][0], {
+            "pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}, "normalTexture": {"index": 0}}
+        mapped["materials"] = [first, second, first | {"alphaMode": "BLEND"}]
+        mapped["meshes"][0]["primitives"] = [mapped["meshes"][0]["primitives"][0] | {"material": m} for m in range(3)]
+        self.write("atlas.gltf", json.dumps(mapped))
         # Two grids of 4 x 4 quads that share an edge.
         grid = "".join(f"o {n}\n" + "".join(f"v {4 * k + i} {j} 0\n" for j in range(5) for i in range(5))
                        + "".join(f"f {b} {b + 1} {b + 6} {b + 5}\n" for j in range(4) for i in range(4)
@@ -193,6 +200,10 @@ class Results(Case):
             self.mill("pipe", "-q", "-j", threads, "-o", threads, "load", "two.gltf", "!", "textures", "100", "--format",
                       "webp", "!", "write", "o.glb")
         self.assertEqual(self.files(self.dir / "1"), self.files(self.dir / "3"))
+        for threads in ("1", "2"):
+            self.mill("pipe", "-q", "-j", threads, "-o", "atlas" + threads, "load", "atlas.gltf", "!", "textures", "128",
+                      "--atlas", "!", "write", "o.glb")
+        self.assertEqual(self.files(self.dir / "atlas1"), self.files(self.dir / "atlas2"))
 
     def test_an_undeclared_key_is_refused(self):
         schema = json.loads(self.mill("schema", "report").stdout)

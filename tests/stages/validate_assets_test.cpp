@@ -50,3 +50,49 @@ TEST_CASE("validate: each fault of an asset fails its own check", "[stages][vali
     CHECK(failed("{for: shop, limits: {longest_side: {min: 5}}}", triangle("", grey)) == "longest_side");
     CHECK(failed("{for: godot, limits: {primitives: 0}}", triangle("", grey)) == "primitives");
 }
+
+TEST_CASE("validate: one moved node at the top of the scene fails, several do not", "[stages][validate]") {
+    Scene scene = triangle("", grey);
+    scene.parts.front().document = scene.parts.front().node = -1;
+    scene.parts.front().transform.m[2][3] = 1;
+    CHECK(failed("{for: unity}", scene) == "moved_roots");
+    scene.parts.push_back(scene.parts.front());
+    CHECK(failed("{for: unity}", scene).empty());
+}
+
+TEST_CASE("validate: texture coordinates overlap within a material, beyond rounding", "[stages][validate]") {
+    Scene scene = test::scene_in_metres(shapes::grid(1, 1));
+    Mesh& mesh = scene.parts.front().mesh;
+    // Two triangles of a square, of which the second reaches into the first by the depth.
+    const auto put = [&](double depth) {
+        const std::array<std::array<double, 2>, 6> uvs{
+            {{0, 0}, {0.5, 0}, {0.5, 0.5}, {0.5 - depth, 0}, {1, 0}, {0.5 - depth, 0.5}}};
+        mesh = {};
+        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {3, 0, 0}, {2, 1, 0}};
+        mesh.corners = {0, 1, 2, 3, 4, 5};
+        Attribute uv{"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::vector<double>(12)};
+        for (std::size_t w = 0; w < 6; ++w)
+            for (std::size_t k = 0; k < 2; ++k) uv.set_value(w, static_cast<int>(k), uvs[w][k]);
+        mesh.attributes = {uv};
+    };
+    put(1e-8);
+    CHECK(failed("{uv_overlaps: 0}", scene).empty());
+    put(1e-5);
+    CHECK(failed("{uv_overlaps: 0}", scene) == "uv_overlaps");
+    scene.materials.resize(2);
+    mesh.primitives.resize(2);
+    mesh.primitives[0].material = 0;
+    mesh.primitives[1].material = 1;
+    mesh.attributes.push_back({std::string(primitive_attribute), Domain::face, Role::index, 1, false,
+                               std::vector<std::uint32_t>{0, 1}});
+    CHECK(failed("{uv_overlaps: 0}", scene).empty()); // each material has its own texture
+}
+
+TEST_CASE("validate: a shop refuses mirrored texture coordinates", "[stages][validate]") {
+    Scene scene = triangle("", grey);
+    scene.parts.front().mesh.attributes.push_back(
+        {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::vector<float>{0, 0, 1, 0, 0, 1}});
+    CHECK(failed("{for: shop}", scene) == "mirrored_uvs");
+    std::get<std::vector<float>>(scene.parts.front().mesh.attributes.back().data) = {0, 1, 1, 1, 0, 0};
+    CHECK(failed("{for: shop}", scene).empty());
+}

@@ -16,17 +16,25 @@ namespace {
 
 struct Flat {
     std::array<Vec3, 3> p; ///< anticlockwise, with z 0
-    Index face;
+    Index face, material;
 };
 
 int side(const Vec3& a, const Vec3& b, const Vec3& p) { return orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y); }
 
-/// Whether an edge of s has all of t on its outer side or on its line.
+/// How far coordinates may be inside another face because they were rounded to 32 bits, as a share of the
+/// texture. It is a 256th of a texel in the largest textures, of 16384 texels.
+constexpr double rounding_depth = 0x1p-22;
+
+/// Whether an edge of s has all of t on its outer side or on its line, except for the rounding.
 bool edge_separates(const Flat& s, const Flat& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &a = s.p[i], &b = s.p[(i + 1) % 3];
-        if (std::all_of(t.p.begin(), t.p.end(), [&](const Vec3& p) { return side(a, b, p) <= 0; }))
-            return true;
+        const Vec3 along = b - a;
+        const double reach = rounding_depth * length(along);
+        const auto is_outside = [&](const Vec3& p) {
+            return side(a, b, p) <= 0 || along.x * (p.y - a.y) - along.y * (p.x - a.x) <= reach;
+        };
+        if (std::all_of(t.p.begin(), t.p.end(), is_outside)) return true;
     }
     return false;
 }
@@ -38,8 +46,10 @@ std::vector<Flat> triangles_of(const Mesh& mesh, const Attribute& uv) {
     };
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const Index begin = mesh.face_begin(f);
+        const Index material =
+            mesh.primitives.empty() ? none : mesh.primitives[mesh.primitive_of(f)].material;
         for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c) {
-            Flat flat{{at(begin), at(c), at(c + 1)}, f};
+            Flat flat{{at(begin), at(c), at(c + 1)}, f, material};
             if (!std::all_of(flat.p.begin(), flat.p.end(), [](const Vec3& p) { return is_finite(p); }))
                 continue;
             const int turn = side(flat.p[0], flat.p[1], flat.p[2]);
@@ -103,7 +113,8 @@ std::optional<Pairs> uv_overlaps(const Mesh& mesh) {
             for (std::size_t t = begin; t < end; ++t)
                 tree.visit(boxes[t], [&](Index o) {
                     const Flat &a = triangles[t], &b = triangles[o];
-                    if (b.face > a.face && !edge_separates(a, b) && !edge_separates(b, a))
+                    if (b.face > a.face && b.material == a.material && !edge_separates(a, b) &&
+                        !edge_separates(b, a))
                         found.emplace_back(a.face, b.face);
                 });
             return found;

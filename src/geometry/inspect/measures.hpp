@@ -45,8 +45,8 @@ using Pairs = std::vector<std::pair<Index, Index>>;
 [[nodiscard]] Pairs folded_faces(const Mesh& mesh);
 /// Coplanar faces that intersect. Exact.
 [[nodiscard]] Pairs coplanar_overlaps(const Mesh& mesh);
-/// Pairs of faces whose interiors overlap in TEXCOORD_0; the lower face first, ascending. None without this
-/// attribute. Exact. Faces that only touch, or have no area in the texture, do not count.
+/// Pairs of faces of one material whose interiors overlap in TEXCOORD_0 by more than rounding; the lower face
+/// first, ascending. None without this attribute. Faces without area in the texture do not count.
 [[nodiscard]] std::optional<Pairs> uv_overlaps(const Mesh& mesh);
 
 // In uv_charts.cpp, for TEXCOORD_0:

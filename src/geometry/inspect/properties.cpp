@@ -477,7 +477,8 @@ constexpr Property table[] = {
      .locations = uvs_out_of_range,
      .counts_locations = true},
     {.name = "uv_overlaps",
-     .help = "Pairs of faces that overlap in the first set of texture coordinates. The test is exact.",
+     .help = "Pairs of faces with the same material that overlap in the first set of texture coordinates, by "
+             "more than the rounding to 32 bits (2^-22 of the texture).",
      .hint = makes_uvs,
      .mend = "unwrap",
      .measure =

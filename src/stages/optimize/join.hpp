@@ -8,13 +8,6 @@
 
 namespace facetmill::optimize_stage {
 
-/// The number of primitives with faces: a renderer draws each separately.
-[[nodiscard]] std::size_t draw_calls(const Mesh& mesh);
-
-/// Merges primitives of the mesh with equal material and attributes, unless they have extras or extensions.
-/// Returns whether the mesh changed.
-bool join_primitives(Mesh& mesh);
-
 /// A part, and the parts merged into it.
 struct JoinedParts {
     std::size_t first = 0;

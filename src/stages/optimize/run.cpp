@@ -1,6 +1,7 @@
 #include "base/text/readable_numbers.hpp"
 #include "base/text/words.hpp"
 #include "geometry/edit/equal_wedges.hpp"
+#include "geometry/edit/primitives.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/optimize/document_optimizer.hpp"
 #include "mesh/equal_meshes.hpp"

@@ -86,6 +86,17 @@ void declare_textures(Declare<TexturesOptions>& d) {
     d.option("repack", &TexturesOptions::repack,
              "Repacks PNG and JPEG images that would stay unchanged, if that makes them smaller. Pixels do "
              "not change.");
+    d.option("atlas", &TexturesOptions::atlas,
+             "Merges materials of one kind, with their textures in one atlas of at most max_size (4096 by "
+             "default).");
+    d.option(
+         "gutter", &TexturesOptions::gutter,
+         "The number of texels around each texture of an atlas, rounded up to a power of two. The default "
+         "keeps three levels of mipmaps apart.")
+        .between(1, 256);
+    d.option("unroll", &TexturesOptions::unroll,
+             "How many copies of a repeated texture an atlas may have. Materials with more repeats stay.")
+        .between(1, 1024);
     d.option("timeout", &TexturesOptions::timeout,
              "Time limit in seconds for ktx or toktx per image. The run fails when it is exceeded.")
         .between(1, 86400);

@@ -18,8 +18,9 @@ struct RoleOptions {
 
 struct TexturesOptions {
     std::optional<std::int64_t> max_size, quality;
-    bool power_of_two = false, lossless = false, repack = false;
+    bool power_of_two = false, lossless = false, repack = false, atlas = false;
     Format format = Format::keep;
+    std::int64_t gutter = 8, unroll = 4;
     std::int64_t timeout = 600; ///< time limit for a KTX2 image, in seconds
     RoleOptions normals, data;
 };

@@ -4,6 +4,7 @@
 #include "io/images/ktx_workers.hpp"
 #include "io/images/pixels.hpp"
 #include "parallel/parallel.hpp"
+#include "stages/textures/atlas.hpp"
 #include "stages/textures/help.hpp"
 #include "stages/textures/work.hpp"
 
@@ -23,6 +24,7 @@ struct ReportedImage {
 struct TexturesReport {
     std::vector<ReportedImage> images;
     std::size_t resized = 0, converted = 0, repacked = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
+    std::optional<AtlasesReport> atlas;
 };
 
 /// A set of images with equal bytes, in any documents.
@@ -178,8 +180,10 @@ std::string line_of(const ReportedImage& image) {
 std::vector<std::string> lines_of(const TexturesReport& r) {
     constexpr std::size_t most = 20;
     std::vector<std::string> lines;
+    if (r.atlas) lines = lines_of(*r.atlas);
+    const std::size_t before = lines.size();
     for (const ReportedImage& image : r.images)
-        if (lines.size() < most) lines.push_back(line_of(image));
+        if (lines.size() < before + most) lines.push_back(line_of(image));
     if (r.images.size() > most)
         lines.push_back(fmt::format("... and {} more, listed in the report", r.images.size() - most));
     if (r.images.empty()) return {"the scene has no images"};
@@ -198,10 +202,13 @@ void declare_report(DeclareFields<TexturesReport>& d) {
     d.field("unchanged", &TexturesReport::unchanged, "Images that stayed byte for byte the same.");
     d.field("bytes_before", &TexturesReport::bytes_before, "The size of all images before.").unit("bytes");
     d.field("bytes_after", &TexturesReport::bytes_after, "The size of all images after.").unit("bytes");
+    d.object("atlas", &TexturesReport::atlas, "Merged materials.", declare_atlases)
+        .only_when("atlas is given");
     d.tell(lines_of);
 }
 
 Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesReport& report) {
+    if (o.atlas) report.atlas = make_atlases(scene, o, context);
     const auto images = images_of(scene, context);
     std::vector<Job> jobs = jobs_of(images);
     work(jobs, o);
@@ -220,15 +227,16 @@ struct TexturesStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<TexturesStage>(
     {.name = "textures",
-     .also_called = "ktx toktx webp avif",
+     .also_called = "ktx toktx webp avif atlas texture_atlas merge_materials",
      .about = help::textures::about,
      .details = help::textures::details,
      .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",
                   "textures: {format: webp, normals: {lossless: true}}", "textures: {repack: true}",
-                  "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"},
+                  "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}",
+                  "textures: {atlas: true, max_size: 4096}"},
      .changes_images = true,
      .lines = LinesPolicy::work,
-     .may_lose = MayLose::all}, // the stage changes no mesh, so nothing is compared
+     .may_lose = MayLose::all}, // the stage moves no vertex, so nothing is compared
     declare_textures, declare_report);
 
 } // namespace

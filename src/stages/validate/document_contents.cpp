@@ -111,12 +111,15 @@ bool has_mesh(const Json& nodes, std::size_t root) {
 
 std::vector<std::string> moved_root_nodes(const Scene& scene) {
     std::vector<std::string> names;
+    std::size_t all = 0; // nodes at the top
     std::set<int> used;
     for (const Part& part : scene.parts) {
-        if (part.document >= 0 && part.node >= 0)
+        if (part.document >= 0 && part.node >= 0) {
             used.insert(part.document);
-        else if (!part.transform.identity())
-            names.push_back(part.name);
+            continue;
+        }
+        ++all;
+        if (!part.transform.identity()) names.push_back(part.name);
     }
     for (const int d : used) {
         const Json json = parse_json(scene.documents[static_cast<std::size_t>(d)]->json, Broken::discarded);
@@ -127,12 +130,15 @@ std::vector<std::string> moved_root_nodes(const Scene& scene) {
         for (const Json& root : roots) {
             if (!root.is_number_unsigned() || root.get<std::size_t>() >= nodes.size()) continue;
             const Json& node = nodes[root.get<std::size_t>()];
-            if (node.is_object() && is_moved(node) && has_mesh(nodes, root.get<std::size_t>()))
+            if (!node.is_object() || !has_mesh(nodes, root.get<std::size_t>())) continue;
+            ++all;
+            if (is_moved(node))
                 names.push_back(node.contains("name") ? text_at(node, "name")
                                                       : fmt::format("nodes[{}]", root.get<std::size_t>()));
         }
     }
-    return names;
+    // Several nodes at the top are placed in the scene, which has no transform.
+    return all > 1 ? std::vector<std::string>() : names;
 }
 
 std::vector<DocumentExtension> extensions_of(const Scene& scene) {

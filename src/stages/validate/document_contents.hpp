@@ -17,8 +17,8 @@ struct DocumentImage {
 /// All images in the documents' lists, and image files outside these lists.
 [[nodiscard]] std::vector<DocumentImage> images_of(const Scene& scene);
 
-/// The names of nodes at the top of the scene that have a transform. Parts without a document count as such
-/// nodes.
+/// The name of the only node with meshes at the top of the scene, if it has a transform. Parts without a
+/// document count as such nodes.
 [[nodiscard]] std::vector<std::string> moved_root_nodes(const Scene& scene);
 
 /// An extension that a document lists as used.

@@ -31,7 +31,8 @@ Rows asset_rows(Profile profile) {
     if (profile == Profile::shop || profile == Profile::ar)
         return {{"triangles", {.min = 1, .max = 100000, .truth = {}}},
                 {"uvs_in_range", yes},
-                {"uv_overlaps", no_more_than_none}};
+                {"uv_overlaps", no_more_than_none},
+                {"mirrored_uvs", no_more_than_none}};
     return {{"joint_count", {.min = {}, .max = 256, .truth = {}}}};
 }
 

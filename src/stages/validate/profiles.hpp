@@ -26,7 +26,8 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
          {"shop", Profile::shop,
           "web, and the limits of Khronos's guidelines for 3D commerce: 100,000 triangles, 5 materials, draw "
           "calls and parts; textures with sides of 512, 1024 or 2048; texture coordinates in the unit "
-          "square without overlaps; base colours from 30 to 240, metal or not; 1 cm to 100 m; no transform "
+          "square, neither overlapping nor mirrored; base colours from 30 to 240, metal or not; 1 cm to 100 "
+          "m; no transform "
           "at the top of the scene"},
          {"unreal", Profile::unreal,
           "web, sides of textures powers of two up to 8192, no transform at the top of the scene, at most "

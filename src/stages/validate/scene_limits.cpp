@@ -294,7 +294,8 @@ void each_limit(Look&& look) {
                "their factor, or in more than a twentieth of their texels.",
                partial_metals});
     look(Limit{"moved_roots", scene, &L::moved_roots,
-               "The number of nodes at the top of the scene with a translation, a rotation or a scale.",
+               "1 if the only node at the top of the scene has a translation, a rotation or a scale. Several "
+               "nodes may be anywhere.",
                moved_roots});
     look(Limit{"pivot", scene, &L::pivot,
                "The distance of the origin from the centre of the bounding box, or of its bottom, whichever "

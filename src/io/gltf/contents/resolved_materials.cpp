@@ -1,8 +1,8 @@
 #include "io/gltf/contents/resolved_materials.hpp"
 
+#include "io/gltf/contents/texture_reference.hpp"
 #include "io/gltf/contents/textures.hpp"
 
-#include "base/math/portable_math.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/document/container.hpp"
 #include "io/images/avif.hpp"
@@ -35,8 +35,8 @@ class LookBuilder {
             if (reader_.extent_ == MaterialResolver::Extent::all)
                 look.rough_texture = texture(*pbr, "metallicRoughnessTexture", false);
         }
-        if (const auto old = extension(place, "KHR_materials_pbrSpecularGlossiness")) {
-            numbers(*old, "diffuseFactor", look.base);
+        if (const auto old = extension_of(place, "KHR_materials_pbrSpecularGlossiness")) {
+            read_numbers_of(*old, "diffuseFactor", look.base);
             look.base_texture = texture(*old, "diffuseTexture", true);
             look.roughness = 1 - number_or(*old, "glossinessFactor", 1);
             look.metalness = 0;
@@ -47,8 +47,8 @@ class LookBuilder {
         look.occlusion_texture = texture(place, "occlusionTexture", false);
         look.occlusion_strength = std::clamp(factor(place, "occlusionTexture", "strength"), 0.0f, 1.0f);
         look.emissive_texture = texture(place, "emissiveTexture", true);
-        numbers(place, "emissiveFactor", look.emissive);
-        if (const auto strong = extension(place, "KHR_materials_emissive_strength"))
+        read_numbers_of(place, "emissiveFactor", look.emissive);
+        if (const auto strong = extension_of(place, "KHR_materials_emissive_strength"))
             for (float& c : look.emissive) c *= number_or(*strong, "emissiveStrength", 1);
         const std::string mode = place.text_or("alphaMode", "OPAQUE");
         look.alpha = mode == "MASK"    ? MaterialLook::Alpha::mask
@@ -59,16 +59,11 @@ class LookBuilder {
         if (look.alpha == MaterialLook::Alpha::blend && look.base[3] == 0)
             look.alpha = MaterialLook::Alpha::opaque;
         look.cutoff = number_or(place, "alphaCutoff", 0.5f);
-        look.unlit = extension(place, "KHR_materials_unlit").has_value();
+        look.unlit = extension_of(place, "KHR_materials_unlit").has_value();
         return look;
     }
 
   private:
-    static std::optional<JsonCursor> extension(const JsonCursor& place, const char* name) {
-        const auto all = place.find("extensions");
-        return all ? all->find(name) : std::nullopt;
-    }
-
     static float number_or(const JsonCursor& place, const char* key, float otherwise) {
         const auto value = place.find(key);
         return value ? static_cast<float>(value->real()) : otherwise;
@@ -79,62 +74,19 @@ class LookBuilder {
         return place ? number_or(*place, key, 1) : 1;
     }
 
-    template <std::size_t N>
-    static void numbers(const JsonCursor& place, const char* key, std::array<float, N>& out) {
-        const auto values = place.find(key);
-        for (std::size_t i = 0; values && i < N; ++i) out[i] = static_cast<float>(values->at(i).real());
-    }
-
-    /// No mesh has 256 sets, so a larger number is clamped to a missing set.
-    static int set_of(std::uint64_t number) { return static_cast<int>(std::min<std::uint64_t>(number, 255)); }
-
     /// The texture that owner[key] refers to; none if there is none.
     Texture texture(const JsonCursor& owner, const char* key, bool srgb) {
         const auto info = owner.find(key);
         if (!info) return {};
-        Texture out;
-        out.set = set_of(info->natural_or("texCoord", 0));
-        if (const auto moved = extension(*info, "KHR_texture_transform")) transform(*moved, out);
-        const JsonCursor place =
-            item(json_, "textures", info->at("index").index(count_of(json_, "textures"), "texture"));
-        if (const auto sampler = place.find("sampler"))
-            sample(item(json_, "samplers", sampler->index(count_of(json_, "samplers"), "sampler")), out);
-        auto image = place.find("source");
-        if (const auto webp = extension(place, "EXT_texture_webp")) image = webp->find("source");
-        if (const auto avif = extension(place, "EXT_texture_avif"); avif && (has_avif() || !image))
-            image = avif->find("source");
+        Texture out = sampling_of(json_, *info);
+        const auto image = image_of(json_, *info);
         if (!image) {
-            warn(place.path(), "its image is of an unsupported kind",
-                 "convert the image to PNG, JPEG or WebP");
+            warn(fmt::format("textures[{}]", info->at("index").natural()),
+                 "its image is of an unsupported kind", "convert the image to PNG, JPEG or WebP");
             return {};
         }
-        out.image = decoded(image->index(count_of(json_, "images"), "image"), srgb);
+        out.image = decoded(*image, srgb);
         return out;
-    }
-
-    /// Stores the specification's product T R S as two rows.
-    static void transform(const JsonCursor& moved, Texture& out) {
-        std::array<float, 2> offset{0, 0}, scale{1, 1};
-        numbers(moved, "offset", offset);
-        numbers(moved, "scale", scale);
-        const auto turned = moved.find("rotation");
-        const double angle = turned ? turned->real() : 0;
-        const double c = cosine(angle), s = sine(angle), sx = scale[0], sy = scale[1];
-        out.transform = {c * sx, s * sy, offset[0], -s * sx, c * sy, offset[1]};
-        out.set = set_of(moved.natural_or("texCoord", static_cast<std::uint64_t>(out.set)));
-    }
-
-    static void sample(const JsonCursor& sampler, Texture& out) {
-        constexpr std::uint64_t nearest = 9728, repeat = 10497, clamp = 33071, mirror = 33648;
-        const auto wrap = [&](const char* key) {
-            const std::uint64_t value = sampler.natural_or(key, repeat);
-            return value == clamp    ? TextureWrap::clamp
-                   : value == mirror ? TextureWrap::mirror
-                                     : TextureWrap::repeat;
-        };
-        out.wrap_u = wrap("wrapS");
-        out.wrap_v = wrap("wrapT");
-        out.nearest = sampler.natural_or("magFilter", 0) == nearest;
     }
 
     std::shared_ptr<const TextureImage> decoded(std::size_t index, bool srgb) {

@@ -108,6 +108,8 @@ class DocumentOptimizer {
     /// Adds a material with textures that hold the looks as pixels, from left to right; all looks must have
     /// the same kind. Look i is at the texture coordinates ((i + 0.5) / count, 0.5). Colours have 8 bits.
     std::size_t add_palette(const std::vector<PlainLook>& looks);
+    /// Removes the materials from all primitives of the meshes. Call erase_unused to erase them.
+    void forget_materials(const std::set<std::size_t>& meshes, const std::set<std::size_t>& materials);
     /// Assigns the material to all triangles of the mesh.
     void set_material(std::size_t mesh, std::size_t material);
     MaterialNeeds needs_of(std::size_t material) const;

@@ -164,6 +164,15 @@ std::size_t DocumentOptimizer::add_palette(const std::vector<PlainLook>& looks) 
     return add("materials", std::move(material));
 }
 
+void DocumentOptimizer::forget_materials(const std::set<std::size_t>& meshes,
+                                         const std::set<std::size_t>& materials) {
+    const std::size_t count = count_of(json_, "materials");
+    for (const std::size_t m : meshes)
+        for (Json& primitive : json_.at("meshes").at(m)["primitives"])
+            if (const auto own = index_at(primitive, "material", count); own && materials.contains(*own))
+                primitive.erase("material");
+}
+
 void DocumentOptimizer::set_material(std::size_t mesh, std::size_t material) {
     for (Json& primitive : json_.at("meshes").at(mesh)["primitives"])
         if (makes_triangles(JsonCursor(primitive, ""))) primitive["material"] = material;
