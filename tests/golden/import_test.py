@@ -418,13 +418,23 @@ class Cad(RealHelper):
     helper = "facetmill-import-cad"
 
     def test_a_box(self):
-        for name, inch, scale in (("mm.step", False, 1), ("inch.step", True, 25.4)):
+        for name, inch, unit in (("mm.step", False, "mm"), ("inch.step", True, "in")):
             with self.subTest(name=name):
                 info = self.info(name, step((10, 20, 30), inch))
-                self.check_bounds(info, (0, 0, 0), [x * scale for x in (10, 20, 30)])
-                self.assertEqual((info["unit"], info["up"], info["triangles"], info["closed"]), ("mm", "z", 12, True))
-                self.assertAlmostEqual(info["volume"] / (6000 * scale ** 3), 1, places=5)
+                self.check_bounds(info, (0, 0, 0), (10, 20, 30))
+                self.assertEqual((info["unit"], info["up"], info["triangles"], info["closed"]), (unit, "z", 12, True))
+                self.assertAlmostEqual(info["volume"] / 6000, 1, places=5)
                 self.assertIn("cad_face", json.dumps(info))
+
+    def test_the_unit_of_the_file(self):
+        """The numbers of the file stay, and glTF gets its size in metres."""
+        self.write("inch.step", step((10, 20, 30), inch=True))
+        self.mill("pipe", "load", "inch.step", "!", "write", "a.glb", env=self.env)
+        self.check_bounds(self.info("a.glb"), (0, 0, -0.508), (0.254, 0.762, 0))
+        for unit, warned in (("in", False), ("cm", True)):
+            run = self.mill("pipe", "load", "inch.step", "--unit", unit, "!", "write", "b.stl", env=self.env)
+            self.assertEqual("W-OVERRIDDEN" in run.stderr, warned, run.stderr)
+            self.check_bounds(self.info("b.stl"), (0, 0, 0), (10, 20, 30))
 
     def test_metres_in_glb(self):
         self.write("a.step", step((10, 20, 30)))
