@@ -40,7 +40,11 @@ int main(int count, char **arguments) {
     if (strcmp(how, "hang") == 0) for (;;) getppid();
     if (strcmp(how, "silent") == 0) sleep(100);
     if (strcmp(how, "much") == 0) return copy("/dev/zero");
-    if (strcmp(how, "memory") == 0) for (;;) { char *more = malloc(1 << 26); if (!more) abort(); memset(more, 1, 4096); }
+    if (strcmp(how, "memory") == 0) for (long mib = 0;; mib += 64) {
+        char *more = malloc(1 << 26);
+        if (!more) { fprintf(stderr, "%ld MiB were given", mib); abort(); }
+        memset(more, 1, 4096);
+    }
     if (strcmp(how, "write") == 0) { FILE *out = fopen(in(folder, "written"), "w"); if (out) { fputs("x", out); fclose(out); } }
     if (strcmp(how, "spy") == 0) return copy(in(folder, "../secret"));
     if (strcmp(how, "answer") == 0 || strcmp(how, "write") == 0) return copy(in(folder, "answer"));
@@ -119,6 +123,29 @@ class FakeHelper(Case):
     @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
     def test_limit_of_memory(self):
         self.assertIn("it crashed (signal 6)", self.refused("memory"))
+
+    @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
+    def test_the_memory_of_a_run_and_of_a_batch_limits_helpers(self):
+        self.write("mesh/how", "memory\n")
+        self.write("p.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [{load: '${input}'}, {write: '${input.stem}.ply'}]\n")
+        for command in (("pipe", "--memory", "640M", "load", "mesh/a.fbx", "!", "write", "out.ply"),
+                        ("batch", "p.yaml", "--input", "mesh/*.fbx", "-o", "out", "--memory", "640M")):
+            with self.subTest(command=command[0]):
+                run = self.mill(*command, expect=6, env=self.env)
+                given = int(run.stderr.split(" MiB were given")[0].split()[-1])
+                self.assertLess(given, 640)
+
+    def test_the_time_limit_of_a_batch_ends_helpers(self):
+        self.write("p.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [{load: '${input}'}, {write: '${input.stem}.ply'}]\n")
+        for n in range(7):  # more than the workers, so each has to survive a helper that it ended
+            self.write(f"in/{n}/a.fbx", "; FBX 7.3.0 project file\n")
+            self.write(f"in/{n}/how", "answer\n" if n == 6 else "hang\n")
+            (self.dir / f"in/{n}/answer").write_bytes(stream({}, triangle()))
+        env = {**self.env, "FACETMILL_IMPORT_SECONDS": "600"}
+        run = self.mill("batch", "p.yaml", "--input", "in/**/*.fbx", "-o", "out", "-k", "--time-limit", "1s", "-j", "2",
+                        expect=None, env=env)
+        self.assertEqual(run.stderr.count("error[E-TIME]"), 6, run.stderr)
+        self.assertEqual([p for p in self.files(self.dir / "out") if p.endswith(".ply")], ["6/a.ply"])
 
     def test_limits_of_time_and_output(self):
         self.assertIn("more than 1 s", self.refused("hang", seconds=1))
