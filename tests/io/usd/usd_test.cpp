@@ -73,11 +73,13 @@ TEST_CASE("a USDZ is a package of one text layer in metres with y up", "[io][usd
 }
 
 TEST_CASE("parts with the same mesh share it in USDZ, where they are", "[io][usd]") {
-    Scene scene = in_metres(shapes::icosphere(1));
-    scene.parts.push_back(scene.parts[0]);
-    scene.parts[1].name = "2. \"other\"";
-    scene.parts[1].transform.m[0][3] = 0.1;
-    scene.parts[1].transform.m[1][1] = -2;
+    const Scene scene = read_text(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"mesh": 0, "name": "2. \"other\"", "translation": [0.1, 0, 0], "scale": [1, -2, 1]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                       "max": [1, 1, 0]}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri":
+            "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
     const io::Bytes usdz = written(scene, "usdz").files.at(0).bytes;
     const std::string layer = layer_of(usdz);
     const std::size_t first = layer.find("point3f[] points");
