@@ -45,6 +45,7 @@ Options options_of(std::span<char*> arguments) {
         if (option == "--deviation") options.deviation = std::strtod(value, nullptr);
         if (option == "--ratio") options.ratio = std::strtod(value, nullptr);
         if (option == "--angle") options.degrees = std::strtod(value, nullptr);
+        if (option == "--unit") options.unit = std::strtod(value, nullptr);
     }
     return options;
 }

@@ -27,7 +27,8 @@ struct Options {
     std::string name;                           ///< the name of the file, without its folder; may be empty
     std::vector<std::filesystem::path> folders; ///< the folder of the file, then further ones
     bool keep_unit = false, keep_up = false;    ///< numbers, or axes, stay as they are in the file
-    double deviation = 0, ratio = 0.001, degrees = 15;
+    double deviation = 0, ratio = 0.001, degrees = 15; ///< for solids; the deviation in metres
+    double unit = 0.001;                               ///< metres per unit of the result, for solids
 };
 
 /// The lists that the helper sends beside the GLB.

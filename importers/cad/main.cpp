@@ -1,5 +1,5 @@
 // facetmill-import-cad: reads CAD files with Open CASCADE, divides their faces into triangles, and writes GLB
-// (importers/helper.hpp) in millimetres with z up.
+// (importers/helper.hpp) in the given unit with z up.
 
 #include "mesh.hpp"
 
@@ -9,7 +9,6 @@
 #include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
 #include <IGESCAFControl_Reader.hxx>
-#include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Quantity_ColorRGBA.hxx>
@@ -225,10 +224,11 @@ void Assembly::triangulate(const TDF_LabelSequence& roots, const Options& option
     Bnd_Box box;
     for (int i = 1; i <= roots.Length(); ++i)
         BRepBndLib::Add(XCAFDoc_ShapeTool::GetShape(roots.Value(i)), box, Standard_False);
-    constexpr double millimetres = 1000, least = 1e-6, half_turn = 180;
+    constexpr double least = 1e-6, half_turn = 180;
     const double diagonal = box.IsVoid() ? 1 : std::sqrt(box.SquareExtent());
-    how_.Deflection = std::max(
-        options.deviation > 0 ? options.deviation * millimetres : options.ratio * diagonal, diagonal * least);
+    how_.Deflection =
+        std::max(options.deviation > 0 ? options.deviation / options.unit : options.ratio * diagonal,
+                 diagonal * least);
     how_.DeflectionInterior = how_.Deflection;
     how_.Angle = how_.AngleInterior = options.degrees * M_PI / half_turn;
     for (int i = 1; i <= roots.Length(); ++i) {
@@ -297,10 +297,10 @@ void read(const Options& options, const std::string& file, const Handle(TDocStd_
 void convert(const Options& options, const std::string& file, Glb& glb, Notes& notes) {
     try {
         Message::DefaultMessenger()->ChangePrinters().Clear();
-        Interface_Static::SetCVal("xstep.cascade.unit", "MM");
         const Handle(XCAFApp_Application) application = XCAFApp_Application::GetApplication();
         Handle(TDocStd_Document) document;
         application->NewDocument("MDTV-XCAF", document);
+        XCAFDoc_DocumentTool::SetLengthUnit(document, options.unit);
         read(options, file, document);
         glb.json["asset"]["generator"] = "Open CASCADE " OCC_VERSION_COMPLETE;
         Assembly(document, glb, notes).add(options);

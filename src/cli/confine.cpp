@@ -136,7 +136,8 @@ void start_programs(const pipeline::Plan& plan) {
 }
 
 void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console) {
-    io::start_import_workers(allowed.read_all ? std::vector<fs::path>() : allowed.read);
+    io::start_import_workers();
+    if (!allowed.read_all) io::limit_import_workers(allowed.read);
     if (options.off) return;
     if (offered_protections().files > 0) {
         static io::EarlyFolders folders; // removed at the end, unless files were written to them
@@ -152,7 +153,7 @@ void confine(AllowedFiles allowed, const SandboxOptions& options, const Console&
 
 void confine_calls_only(const SandboxOptions& options) {
     io::start_ktx_workers(); // a later plan may need them
-    io::start_import_workers({});
+    io::start_import_workers();
     if (!options.off) confine_calls();
 }
 

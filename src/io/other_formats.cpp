@@ -29,7 +29,7 @@ const std::vector<OtherFormat>& other_formats() {
         {{"usd", "usda", "usdc", "usdz"},
          "a USD file",
          "export it as glTF (.glb), as Blender does",
-         "write .glb, which Blender, Reality Converter and others convert to USD"},
+         "write .usdz, which programs for USD open"},
         {{"step", "stp", "iges", "igs", "brep", "sldprt", "sldasm", "ipt", "iam", "prt", "catpart", "x_t",
           "x_b", "fcstd", "sat", "3dm", "dwg", "ifc", "f3d"},
          "a CAD file of curved surfaces or solids, not a mesh",

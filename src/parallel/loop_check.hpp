@@ -19,4 +19,7 @@ class LoopCheck {
     const std::function<void()>* before_;
 };
 
+/// Calls the check of this thread's loops, for work outside of loops that waits. Does nothing without one.
+void check_loop_now();
+
 } // namespace facetmill

@@ -1,6 +1,7 @@
 #include "parallel/memory.hpp"
 
 #include "base/error.hpp"
+#include "parallel/memory_limit.hpp"
 #include "platform/pages.hpp"
 
 #include <algorithm>
@@ -18,6 +19,8 @@ constexpr std::uint64_t not_worth_asking = std::uint64_t{1} << 28;
 } // namespace
 
 void set_memory_limit(std::uint64_t bytes) { limit_of_run = bytes; }
+
+std::uint64_t memory_limit() { return limit_of_run; }
 
 std::optional<std::uint64_t> memory_left() {
     const auto there = available_memory();

@@ -109,6 +109,10 @@ LoopCheck::LoopCheck(std::function<void()> check)
 
 LoopCheck::~LoopCheck() { loop_check = before_; }
 
+void check_loop_now() {
+    if (loop_check) (*loop_check)();
+}
+
 void sort_few(std::span<KeyedPlace> places) {
     std::sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
         return a.key != b.key ? a.key < b.key : a.place < b.place;

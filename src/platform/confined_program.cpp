@@ -99,10 +99,10 @@ class Listener {
         std::vector<std::byte> room(std::size_t{1} << 20);
         while (output || messages) {
             std::array<pollfd, 3> ready{
-                {{output.number(), POLLIN, 0}, {messages.number(), POLLIN, 0}, {socket_.number(), 0, 0}}};
+                {{output.number(), POLLIN, 0}, {messages.number(), POLLIN, 0}, {socket_.number(), POLLIN, 0}}};
             constexpr int pause = 100; // milliseconds
             ::poll(ready.data(), ready.size(), pause);
-            if ((ready[2].revents & (POLLHUP | POLLERR)) != 0) return How::deserted;
+            if (ready[2].revents != 0) return How::deserted;
             if (std::chrono::steady_clock::now() > deadline_) return How::late;
             if (ready[0].revents != 0) {
                 const std::size_t got = read_some(output, room).value_or(0);
@@ -121,7 +121,7 @@ class Listener {
         for (;;) {
             const pid_t ended = ::waitpid(process, &status, WNOHANG);
             if (ended == process || (ended < 0 && errno != EINTR)) return ended == process;
-            pollfd client{socket_.number(), 0, 0};
+            pollfd client{socket_.number(), POLLIN, 0};
             constexpr int pause = 2; // milliseconds
             ::poll(&client, 1, pause);
             if (client.revents != 0 || std::chrono::steady_clock::now() > deadline_) return false;

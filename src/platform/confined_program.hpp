@@ -27,7 +27,7 @@ struct ConfinedEnd : ProgramEnd {
 
 /// Runs the program and waits. It cannot write files. With Landlock it can only read the listed files,
 /// libraries and system information. It is killed after the limit, beyond most_output, and when the other
-/// side of the socket closes. on_output gets its output piece by piece.
+/// side of the socket closes or sends a byte. on_output gets its output piece by piece.
 ConfinedEnd run_confined(const ConfinedProgram& settings, const Descriptor& input, const Descriptor& socket,
                          const Function<void(std::span<const std::byte>)>& on_output);
 

@@ -64,8 +64,8 @@ How wait_for(pid_t process, const Descriptor& socket, std::chrono::seconds limit
     for (int pause = first_pause;; pause = std::min(2 * pause, longest_pause)) {
         const pid_t ended = ::waitpid(process, &status, WNOHANG);
         if (ended == process || (ended < 0 && errno != EINTR)) return How::exited;
-        pollfd other{socket.number(), 0, 0};
-        const bool deserted = ::poll(&other, 1, pause) > 0 && (other.revents & (POLLHUP | POLLERR)) != 0;
+        pollfd other{socket.number(), POLLIN, 0};
+        const bool deserted = ::poll(&other, 1, pause) > 0;
         const bool late = std::chrono::steady_clock::now() > deadline;
         if (!deserted && !late) continue;
         ::kill(-process, SIGKILL);

@@ -28,7 +28,7 @@ struct ProgramEnd {
 
 /// Runs the program in the working folder and waits. If the kernel has Landlock, the program may write only
 /// in this folder. It is killed with its children after the time limit, or when the other side of the socket
-/// closes.
+/// closes or sends a byte.
 ProgramEnd run_program(const ProgramSettings& settings, const Descriptor& socket);
 
 } // namespace facetmill

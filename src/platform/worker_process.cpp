@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <new>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -54,6 +55,11 @@ Descriptor start_worker(const std::function<void(const Descriptor&)>& serve) {
 }
 
 bool has_workers() { return true; }
+
+bool is_readable(const Descriptor& socket, std::chrono::milliseconds time) {
+    pollfd other{socket.number(), POLLIN, 0};
+    return ::poll(&other, 1, static_cast<int>(time.count())) > 0;
+}
 
 bool send_all(const Descriptor& socket, const void* data, std::size_t size) {
     return all_pass(static_cast<const char*>(data), size, [&](const char* at, std::size_t left) {

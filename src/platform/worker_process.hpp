@@ -3,6 +3,7 @@
 
 #include "platform/descriptor.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 
@@ -15,6 +16,9 @@ namespace facetmill {
 
 /// False on Windows, which cannot copy a process.
 [[nodiscard]] bool has_workers();
+
+/// Whether the other side sends something, or has closed, within the time.
+[[nodiscard]] bool is_readable(const Descriptor& socket, std::chrono::milliseconds time);
 
 /// False if the other side has closed.
 bool send_all(const Descriptor& socket, const void* data, std::size_t size);

@@ -40,7 +40,11 @@ int main(int count, char **arguments) {
     if (strcmp(how, "hang") == 0) for (;;) getppid();
     if (strcmp(how, "silent") == 0) sleep(100);
     if (strcmp(how, "much") == 0) return copy("/dev/zero");
-    if (strcmp(how, "memory") == 0) for (;;) { char *more = malloc(1 << 26); if (!more) abort(); memset(more, 1, 4096); }
+    if (strcmp(how, "memory") == 0) for (long mib = 0;; mib += 64) {
+        char *more = malloc(1 << 26);
+        if (!more) { fprintf(stderr, "%ld MiB were given", mib); abort(); }
+        memset(more, 1, 4096);
+    }
     if (strcmp(how, "write") == 0) { FILE *out = fopen(in(folder, "written"), "w"); if (out) { fputs("x", out); fclose(out); } }
     if (strcmp(how, "spy") == 0) return copy(in(folder, "../secret"));
     if (strcmp(how, "answer") == 0 || strcmp(how, "write") == 0) return copy(in(folder, "answer"));
@@ -119,6 +123,29 @@ class FakeHelper(Case):
     @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
     def test_limit_of_memory(self):
         self.assertIn("it crashed (signal 6)", self.refused("memory"))
+
+    @unittest.skipIf(SLOW, "sanitizers need more addresses than the limit")
+    def test_the_memory_of_a_run_and_of_a_batch_limits_helpers(self):
+        self.write("mesh/how", "memory\n")
+        self.write("p.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [{load: '${input}'}, {write: '${input.stem}.ply'}]\n")
+        for command in (("pipe", "--memory", "640M", "load", "mesh/a.fbx", "!", "write", "out.ply"),
+                        ("batch", "p.yaml", "--input", "mesh/*.fbx", "-o", "out", "--memory", "640M")):
+            with self.subTest(command=command[0]):
+                run = self.mill(*command, expect=6, env=self.env)
+                given = int(run.stderr.split(" MiB were given")[0].split()[-1])
+                self.assertLess(given, 640)
+
+    def test_the_time_limit_of_a_batch_ends_helpers(self):
+        self.write("p.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [{load: '${input}'}, {write: '${input.stem}.ply'}]\n")
+        for n in range(7):  # more than the workers, so each has to survive a helper that it ended
+            self.write(f"in/{n}/a.fbx", "; FBX 7.3.0 project file\n")
+            self.write(f"in/{n}/how", "answer\n" if n == 6 else "hang\n")
+            (self.dir / f"in/{n}/answer").write_bytes(stream({}, triangle()))
+        env = {**self.env, "FACETMILL_IMPORT_SECONDS": "600"}
+        run = self.mill("batch", "p.yaml", "--input", "in/**/*.fbx", "-o", "out", "-k", "--time-limit", "1s", "-j", "2",
+                        expect=None, env=env)
+        self.assertEqual(run.stderr.count("error[E-TIME]"), 6, run.stderr)
+        self.assertEqual([p for p in self.files(self.dir / "out") if p.endswith(".ply")], ["6/a.ply"])
 
     def test_limits_of_time_and_output(self):
         self.assertIn("more than 1 s", self.refused("hang", seconds=1))
@@ -418,13 +445,23 @@ class Cad(RealHelper):
     helper = "facetmill-import-cad"
 
     def test_a_box(self):
-        for name, inch, scale in (("mm.step", False, 1), ("inch.step", True, 25.4)):
+        for name, inch, unit in (("mm.step", False, "mm"), ("inch.step", True, "in")):
             with self.subTest(name=name):
                 info = self.info(name, step((10, 20, 30), inch))
-                self.check_bounds(info, (0, 0, 0), [x * scale for x in (10, 20, 30)])
-                self.assertEqual((info["unit"], info["up"], info["triangles"], info["closed"]), ("mm", "z", 12, True))
-                self.assertAlmostEqual(info["volume"] / (6000 * scale ** 3), 1, places=5)
+                self.check_bounds(info, (0, 0, 0), (10, 20, 30))
+                self.assertEqual((info["unit"], info["up"], info["triangles"], info["closed"]), (unit, "z", 12, True))
+                self.assertAlmostEqual(info["volume"] / 6000, 1, places=5)
                 self.assertIn("cad_face", json.dumps(info))
+
+    def test_the_unit_of_the_file(self):
+        """The numbers of the file stay, and glTF gets its size in metres."""
+        self.write("inch.step", step((10, 20, 30), inch=True))
+        self.mill("pipe", "load", "inch.step", "!", "write", "a.glb", env=self.env)
+        self.check_bounds(self.info("a.glb"), (0, 0, -0.508), (0.254, 0.762, 0))
+        for unit, warned in (("in", False), ("cm", True)):
+            run = self.mill("pipe", "load", "inch.step", "--unit", unit, "!", "write", "b.stl", env=self.env)
+            self.assertEqual("W-OVERRIDDEN" in run.stderr, warned, run.stderr)
+            self.check_bounds(self.info("b.stl"), (0, 0, 0), (10, 20, 30))
 
     def test_metres_in_glb(self):
         self.write("a.step", step((10, 20, 30)))

@@ -14,7 +14,7 @@ TEST_CASE("a format that is not read is named with what to export or to convert 
     CHECK(hint_for_reading("a.fbx").find("export it as glTF (.glb)") != std::string::npos);
     CHECK(hint_for_reading("a.blend.gz").find("Blender") != std::string::npos);
     CHECK(hint_for_reading("a.step").find("FreeCAD") != std::string::npos);
-    CHECK(hint_for_reading("a.usdz").find("a USD file") != std::string::npos);
+    CHECK(hint_for_reading("a.usdc").find("a USD file") != std::string::npos);
     for (const char* name : {"a.stl", "a", "step", "astep", ".", "a.unheard"})
         CHECK(hint_for_reading(name).empty());
 }
@@ -22,6 +22,7 @@ TEST_CASE("a format that is not read is named with what to export or to convert 
 TEST_CASE("in place of a format that is not written one is named that is", "[io]") {
     CHECK(hint_for_writing("a.fbx") == "write .glb, which Blender and others open and convert");
     CHECK(hint_for_writing("a.step").find("write .stl or .3mf") != std::string::npos);
+    CHECK(hint_for_writing("a.usda").find("write .usdz") != std::string::npos);
     CHECK(hint_for_writing("a.zip").empty());
     CHECK(hint_for_writing("a.glb").empty());
 }

@@ -1,5 +1,6 @@
 #include "io/images/ktx_workers.hpp"
 
+#include "parallel/loop_check.hpp"
 #include "platform/cores.hpp"
 #include "platform/file_names.hpp"
 #include "platform/run_program.hpp"
@@ -128,7 +129,8 @@ class Worker {
             if (problem.empty()) problem = encode(order, png, file);
             const std::string& text = problem.empty() ? file : problem;
             const AnswerMessage answer{problem.empty() ? 1U : 0U, text.size()};
-            if (!send_all(socket_, &answer, sizeof answer) || !send_all(socket_, text.data(), text.size()))
+            if (!send_all(socket_, &answer, sizeof answer) || !send_all(socket_, text.data(), text.size()) ||
+                !WorkerPool::order_ends(socket_))
                 break;
         }
         std::error_code ignored;
@@ -209,7 +211,7 @@ void start_ktx_workers() {
 
 Bytes run_ktx(Span png, const KtxOrder& order) {
     if (!active_protections().calls) start_ktx_workers();
-    WorkerPool::Loan loan(workers());
+    WorkerPool::Loan loan(workers(), check_loop_now);
     if (!loan.socket())
         throw Error(ErrorKind::stage, "E-KTX",
                     "KTX2 needs the program ktx or toktx, which cannot be started");
@@ -221,11 +223,12 @@ Bytes run_ktx(Span png, const KtxOrder& order) {
                                png.size()};
     AnswerMessage answer{};
     const Descriptor& socket = *loan.socket();
-    if (!send_all(socket, &message, sizeof message) || !send_all(socket, png.data(), png.size()) ||
-        !receive_all(socket, &answer, sizeof answer) || answer.bytes > most_bytes)
-        fail(loan);
+    if (!send_all(socket, &message, sizeof message) || !send_all(socket, png.data(), png.size())) fail(loan);
+    loan.wait();
+    if (!receive_all(socket, &answer, sizeof answer) || answer.bytes > most_bytes) fail(loan);
     Bytes bytes(answer.bytes);
     if (!receive_all(socket, bytes.data(), bytes.size())) fail(loan);
+    loan.end();
     if (answer.good == 1) return bytes;
     throw Error(ErrorKind::stage, "E-KTX", std::string(as_text(bytes)));
 }

@@ -4,7 +4,9 @@
 #include "io/flatten.hpp"
 #include "io/import/import.hpp"
 #include "io/packing.hpp"
+#include "parallel/loop_check.hpp"
 #include "parallel/memory.hpp"
+#include "parallel/memory_limit.hpp"
 #include "platform/confined_program.hpp"
 #include "platform/cores.hpp"
 #include "platform/file_names.hpp"
@@ -15,6 +17,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
+#include <mutex>
+#include <set>
 
 namespace facetmill::io {
 
@@ -27,7 +31,8 @@ namespace fs = std::filesystem;
 struct OrderHeader {
     std::uint64_t memory, most_output, bytes;
     std::uint32_t seconds, texts; ///< the program, then the arguments, then the paths
-    std::uint32_t arguments, unused;
+    std::uint32_t arguments;
+    std::uint32_t is_limit; ///< 1: the texts are all files and folders that later orders may name
 };
 
 enum class Kind : std::uint64_t { data, good, bad, not_started };
@@ -57,6 +62,10 @@ bool answer(const Descriptor& socket, Kind kind, std::string_view bytes) {
 
 // --- the worker process
 
+bool finish(const Descriptor& socket, Kind kind, std::string_view bytes) {
+    return answer(socket, kind, bytes) && WorkerPool::order_ends(socket);
+}
+
 /// The reason why the program gave no result; empty if it gave one.
 std::string problem_of(const ConfinedEnd& end, const ConfinedProgram& settings) {
     using How = ProgramEnd::How;
@@ -73,26 +82,55 @@ std::string problem_of(const ConfinedEnd& end, const ConfinedProgram& settings) 
     return {};
 }
 
-bool is_below(const fs::path& path, const std::vector<fs::path>& folders) {
-    std::error_code failed;
-    const fs::path real = fs::weakly_canonical(path, failed);
-    return !failed && std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
-        const fs::path root = fs::weakly_canonical(folder, failed);
-        return !failed &&
-               std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
-    });
+/// The files and folders that orders may name.
+class Readable {
+  public:
+    [[nodiscard]] bool is_limited() const { return real_.has_value(); }
+
+    void limit(const std::vector<std::string>& paths) {
+        real_.emplace();
+        for (const fs::path path : paths) {
+            std::error_code failed;
+            if (const fs::path real = fs::weakly_canonical(path, failed); !failed) real_->insert(real);
+        }
+    }
+
+    [[nodiscard]] bool covers(const fs::path& path) const {
+        if (!real_) return true;
+        std::error_code failed;
+        fs::path real = fs::weakly_canonical(path, failed);
+        while (!failed && real_->count(real) == 0 && real.has_relative_path()) real = real.parent_path();
+        return !failed && real_->count(real) > 0;
+    }
+
+  private:
+    std::optional<std::set<fs::path>> real_; ///< without a limit, only the sandbox of a helper decides
+};
+
+std::optional<std::vector<std::string>> receive_texts(const Descriptor& socket, std::uint32_t count) {
+    std::vector<std::string> texts;
+    for (std::string text; count > 0; --count) {
+        if (!receive_text(socket, text)) return {};
+        texts.push_back(std::move(text));
+    }
+    return texts;
 }
 
 /// Serves an order. False if the client has ended or sends nonsense.
-bool serve(const Descriptor& socket, const std::vector<fs::path>& readable) {
+bool serve(const Descriptor& socket, Readable& readable) {
     OrderHeader order{};
     constexpr std::uint32_t most_texts = 1000;
-    if (!receive_all(socket, &order, sizeof order) || order.texts > most_texts || order.texts == 0 ||
-        order.arguments >= order.texts)
-        return false;
-    std::vector<std::string> texts(order.texts);
-    for (std::string& text : texts)
-        if (!receive_text(socket, text)) return false;
+    if (!receive_all(socket, &order, sizeof order)) return false;
+    if (order.is_limit != 0) {
+        const auto paths = receive_texts(socket, order.texts);
+        if (!paths || readable.is_limited()) return false; // a limit is final
+        readable.limit(*paths);
+        return true;
+    }
+    if (order.texts > most_texts || order.texts == 0 || order.arguments >= order.texts) return false;
+    const auto received = receive_texts(socket, order.texts);
+    if (!received) return false;
+    const auto& texts = *received;
     Bytes bytes(order.bytes);
     if (!receive_all(socket, bytes.data(), bytes.size())) return false;
     const Descriptor file = file_in_memory(bytes);
@@ -102,9 +140,8 @@ bool serve(const Descriptor& socket, const std::vector<fs::path>& readable) {
     const auto program = import::helper_program(texts.front());
     const auto first_path = texts.begin() + 1 + order.arguments;
     ConfinedProgram settings{{}, {texts.begin() + 1, first_path}, {first_path, texts.end()}};
-    if (!readable.empty())
-        std::erase_if(settings.read, [&](const fs::path& path) { return !is_below(path, readable); });
-    if (!program || !file) return answer(socket, Kind::not_started, program ? "no memory" : "it is missing");
+    std::erase_if(settings.read, [&](const fs::path& path) { return !readable.covers(path); });
+    if (!program || !file) return finish(socket, Kind::not_started, program ? "no memory" : "it is missing");
     settings.program = *program;
     settings.memory = order.memory;
     settings.most_output = order.most_output;
@@ -113,9 +150,9 @@ bool serve(const Descriptor& socket, const std::vector<fs::path>& readable) {
         (void)answer(socket, Kind::data, as_text(piece)); // a client that has ended is noticed later
     });
     if (end.how == ProgramEnd::How::not_started)
-        return answer(socket, Kind::not_started, std::strerror(end.number));
+        return finish(socket, Kind::not_started, std::strerror(end.number));
     const std::string problem = problem_of(end, settings);
-    return answer(socket, problem.empty() ? Kind::good : Kind::bad, problem);
+    return finish(socket, problem.empty() ? Kind::good : Kind::bad, problem);
 }
 
 // --- the client process
@@ -133,6 +170,17 @@ WorkerPool& workers() {
                 file_mark(input.name()));
 }
 
+/// The bytes that a helper may allocate: half of the memory that is there. A limit of the run counts this
+/// process and the helper together.
+std::uint64_t memory_allowed() {
+    constexpr std::uint64_t usual_least = std::uint64_t{1} << 30;
+    constexpr std::uint64_t to_start = std::uint64_t{256}
+                                       << 20; // address space of a helper and its libraries
+    const std::uint64_t half = memory_there() / 2;
+    if (memory_limit() == 0) return std::max(half, usual_least);
+    return std::max(std::min(half, memory_left().value_or(half)), to_start);
+}
+
 /// The seconds that a helper may take; FACETMILL_IMPORT_SECONDS replaces the usual limit.
 std::uint32_t seconds_allowed() {
     constexpr int usual = 600, most = 86400;
@@ -147,10 +195,8 @@ std::uint32_t seconds_allowed() {
 }
 
 bool send_order(const Descriptor& socket, const Input& input, const import::DoorOrder& order) {
-    constexpr std::uint64_t least_memory = std::uint64_t{1} << 30;
-    const std::uint64_t there = memory_there();
     OrderHeader header{};
-    header.memory = std::max(there / 2, least_memory);
+    header.memory = memory_allowed();
     header.most_output = most_unpacked(input.bytes().size()); // a file is a kind of packing
     header.bytes = input.bytes().size();
     header.seconds = seconds_allowed();
@@ -168,6 +214,7 @@ Bytes received(WorkerPool::Loan& loan, const Input& input, const std::string& pr
     const std::uint64_t most = memory_there();
     for (;;) {
         AnswerHeader header{};
+        loan.wait();
         const bool came = receive_all(*loan.socket(), &header, sizeof header) && header.bytes <= most &&
                           stream.size() + header.bytes <= most;
         const std::size_t before = stream.size();
@@ -179,6 +226,7 @@ Bytes received(WorkerPool::Loan& loan, const Input& input, const std::string& pr
         if (header.kind == Kind::data) continue;
         const std::string problem(as_text(Span(stream).subspan(before)));
         stream.resize(before);
+        loan.end();
         if (header.kind == Kind::good) return stream;
         const bool started = header.kind == Kind::bad;
         refuse(input,
@@ -189,14 +237,28 @@ Bytes received(WorkerPool::Loan& loan, const Input& input, const std::string& pr
 
 } // namespace
 
-void start_import_workers(const std::vector<fs::path>& readable) {
+void start_import_workers() {
     const auto& names = import::helper_names;
     const auto is_there = [](const char* name) { return import::helper_program(name).has_value(); };
     if (std::none_of(names.begin(), names.end(), is_there)) return;
     constexpr int most = 4; // each helper may need much memory
-    workers().start(std::min(most, default_threads()), [&](const Descriptor& socket) {
+    workers().start(std::min(most, default_threads()), [](const Descriptor& socket) {
+        Readable readable;
         while (serve(socket, readable)) {
         }
+    });
+}
+
+void limit_import_workers(const std::vector<fs::path>& readable) {
+    std::set<std::string> paths; // a batch names the same folder for many assets
+    for (const fs::path& path : readable) paths.insert(path.string());
+    OrderHeader header{};
+    header.is_limit = 1;
+    header.texts = static_cast<std::uint32_t>(paths.size());
+    workers().for_each([&](const Descriptor& socket) {
+        // A worker that has ended refuses its next order.
+        bool sent = send_all(socket, &header, sizeof header);
+        for (const std::string& path : paths) sent = sent && send_text(socket, path);
     });
 }
 
@@ -218,8 +280,13 @@ std::optional<fs::path> helper_program(const std::string& name) {
 }
 
 Answer ask_helper(const Input& input, const DoorOrder& order) {
-    if (!active_protections().calls) start_import_workers({});
-    WorkerPool::Loan loan(workers());
+    if (!active_protections().calls) start_import_workers();
+    // Under a limit of memory, helpers run one after another, and each may use all that is left.
+    static std::timed_mutex alone;
+    std::unique_lock one(alone, std::defer_lock);
+    constexpr std::chrono::milliseconds between_checks(100);
+    while (memory_limit() > 0 && !one.try_lock_for(between_checks)) check_loop_now();
+    WorkerPool::Loan loan(workers(), check_loop_now);
     if (!loan.socket()) refuse(input, order.program + " cannot be started", ErrorKind::missing);
     if (!send_order(*loan.socket(), input, order)) {
         loan.drop();

@@ -4,6 +4,7 @@
 #include "io/flatten.hpp"
 #include "io/images/image_files.hpp"
 #include "io/import/door.hpp"
+#include "io/import/stated_unit.hpp"
 #include "io/packing.hpp"
 
 #include <fmt/format.h>
@@ -22,9 +23,16 @@ struct Format {
     Unit unit;
     UpAxis up;
     int (*sniff)(std::string_view begin);
+    Unit (*stated)(std::string_view file) = nullptr;
 };
 
 bool is_cad(const Format& format) { return format.helper == cad_helper; }
+
+/// The unit of the scene: what the file states, otherwise that of the format.
+Unit unit_of(const Input& input, const Format& format) {
+    const Unit stated = format.stated ? format.stated(as_text(input.bytes())) : Unit::unknown;
+    return stated == Unit::unknown ? format.unit : stated;
+}
 
 DoorOrder order_for(const Input& input, const ReadSettings& settings, const Format& format) {
     DoorOrder order{format.helper, {"--format", format.name}};
@@ -40,7 +48,8 @@ DoorOrder order_for(const Input& input, const ReadSettings& settings, const Form
         order.read.insert(order.read.end(), input.asset_roots().begin(), input.asset_roots().end());
         for (const fs::path& folder : order.read) add("--folder", folder.string());
     }
-    // A given unit or axis states what the numbers of the file mean, so they stay as they are.
+    // A given unit or axis states what the numbers of the file mean, so they stay as they are. Numbers of
+    // solids stay always, because the result has the unit of the file.
     if (settings.unit) order.arguments.emplace_back("--keep-unit");
     if (settings.up) order.arguments.emplace_back("--keep-up");
     if (!is_cad(format)) return order;
@@ -49,6 +58,7 @@ DoorOrder order_for(const Input& input, const ReadSettings& settings, const Form
     else
         add("--ratio", fmt::format("{}", settings.curves.ratio));
     add("--angle", fmt::format("{}", settings.curves.degrees));
+    add("--unit", fmt::format("{}", metres(unit_of(input, format))));
     return order;
 }
 
@@ -119,7 +129,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log, const
         Scene scene = codec_named("glb")->read(glb, settings, log);
         log.has_solids = is_cad(format);
         for (Part& part : scene.parts) take_cad_faces(part.mesh);
-        scene.unit = settings.unit.value_or(format.unit);
+        scene.unit = settings.unit.value_or(unit_of(input, format));
         scene.up = settings.up.value_or(format.up);
         return scene;
     });
@@ -135,6 +145,7 @@ void peek(const Input& input, FileHeader& header, const Format& format) {
         return inner;
     });
     header.has_materials = [of_answer] { return of_answer->has_materials && of_answer->has_materials(); };
+    if (format.stated) header.unit = unit_of(input, format);
     if (is_cad(format)) return; // its helper sends no images
     header.images = [of_answer] {
         return of_answer->images ? of_answer->images() : std::vector<NamedImage>();
@@ -181,8 +192,8 @@ std::vector<Format> formats() {
         return Format{name, about, std::move(extensions), scenes_helper, unit, up, sniff};
     };
     const auto cad = [](const char* name, const char* about, std::vector<std::string> extensions,
-                        int (*sniff)(std::string_view)) {
-        return Format{name, about, std::move(extensions), cad_helper, Unit::mm, UpAxis::z, sniff};
+                        int (*sniff)(std::string_view), Unit (*stated)(std::string_view) = nullptr) {
+        return Format{name, about, std::move(extensions), cad_helper, Unit::mm, UpAxis::z, sniff, stated};
     };
     return {
         scenes("fbx", "Autodesk FBX", {"fbx"}, sniff_fbx),
@@ -203,8 +214,8 @@ std::vector<Format> formats() {
         scenes(
             "x", "DirectX model", {"x"}, [](std::string_view b) { return certain(b.starts_with("xof 03")); },
             Unit::unknown),
-        cad("step", "STEP, solids become triangles", {"step", "stp"}, sniff_step),
-        cad("iges", "IGES, surfaces become triangles", {"iges", "igs"}, sniff_iges),
+        cad("step", "STEP, solids become triangles", {"step", "stp"}, sniff_step, unit_of_step),
+        cad("iges", "IGES, surfaces become triangles", {"iges", "igs"}, sniff_iges, unit_of_iges),
         cad("brep", "Open CASCADE shapes, become triangles", {"brep"}, sniff_brep),
     };
 }

@@ -10,8 +10,11 @@
 namespace facetmill::io {
 
 /// Starts worker processes that run the helpers, if any helper is installed and no workers are running. Call
-/// it before closing the sandbox and before starting threads. readable: the files and folders that helpers
-/// may read; with nothing, only the sandbox of each helper decides.
-void start_import_workers(const std::vector<std::filesystem::path>& readable);
+/// it before closing the sandbox and before starting threads.
+void start_import_workers();
+
+/// From now on, helpers may read only these files and folders, besides the folder of their input if it is
+/// below one of them. Call it once, while no helper runs. Without it, the sandbox of each helper decides.
+void limit_import_workers(const std::vector<std::filesystem::path>& readable);
 
 } // namespace facetmill::io

@@ -156,48 +156,67 @@ void put(Bytes& out, std::uint64_t value, int bytes) {
 
 /// The fields from the required version to the lengths of the name and the extra field. An entry and the
 /// directory store the same fields. The time is the earliest that zip can hold: 1 January 1980.
-void put_description(Bytes& out, const ArchiveFile& file, const Bytes& packed) {
+void put_description(Bytes& out, const ArchiveFile& file, std::size_t packed_size, bool packs,
+                     std::size_t extra) {
     constexpr std::uint64_t utf8 = 0x800;
     const bool is_ascii =
         std::all_of(file.path.begin(), file.path.end(), [](unsigned char c) { return c < 0x80; });
     put(out, 20, 2);                  // version 2.0
     put(out, is_ascii ? 0 : utf8, 2); // flags
-    put(out, deflated, 2);
+    put(out, packs ? deflated : stored, 2);
     put(out, 0, 2);    // 0 o'clock
     put(out, 0x21, 2); // 1 January 1980
     put(out, crc_of(file.bytes), 4);
-    put(out, packed.size(), 4);
+    put(out, packed_size, 4);
     put(out, file.bytes.size(), 4);
     put(out, file.path.size(), 2);
-    put(out, 0, 2);
+    put(out, extra, 2);
+}
+
+/// The bytes of an extra field that lets data after it begin at a multiple of the alignment. An extra field
+/// has at least its head.
+std::size_t padding(std::size_t end, std::size_t alignment) {
+    constexpr std::size_t head = 4;
+    const std::size_t gap = (alignment - end % alignment) % alignment;
+    return gap == 0 || gap >= head ? gap : gap + alignment;
 }
 
 void put_bytes(Bytes& out, Span bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); }
 
 } // namespace
 
-Bytes make_archive(const std::vector<ArchiveFile>& files) {
+Bytes make_archive(const std::vector<ArchiveFile>& files, std::size_t alignment) {
+    constexpr std::size_t local_size = 30, extra_head = 4;
+    constexpr std::uint64_t extra_id = 0x1986; // not registered; the programs of OpenUSD use it
+    const bool packs = alignment == 0;
     if (files.size() >= most16)
         throw Error(ErrorKind::limit, "E-SIZE", "a zip archive holds at most 65,534 files", "write a .tar");
     Bytes out, directory;
     for (const ArchiveFile& file : files) {
-        const Bytes packed = io::packed(file.bytes, Packing::deflate);
+        const Bytes own = packs ? io::packed(file.bytes, Packing::deflate) : Bytes();
+        const Bytes& packed = packs ? own : file.bytes;
         if (file.bytes.size() >= most32 || out.size() + packed.size() >= most32)
             throw Error(ErrorKind::limit, "E-SIZE", "a zip archive holds at most 4 GiB",
                         "write several files, or another format");
         const auto name = std::as_bytes(std::span(file.path));
         put(directory, entry_magic, 4);
         put(directory, 20, 2); // made by version 2.0
-        put_description(directory, file, packed);
+        put_description(directory, file, packed.size(), packs, 0);
         put(directory, 0, 2); // comment
         put(directory, 0, 2); // disk
         put(directory, 0, 2); // attributes
         put(directory, 0, 4);
         put(directory, out.size(), 4);
         put_bytes(directory, name);
+        const std::size_t extra = packs ? 0 : padding(out.size() + local_size + name.size(), alignment);
         put(out, local_magic, 4);
-        put_description(out, file, packed);
+        put_description(out, file, packed.size(), packs, extra);
         put_bytes(out, name);
+        if (extra > 0) {
+            put(out, extra_id, 2);
+            put(out, extra - extra_head, 2);
+            out.resize(out.size() + extra - extra_head);
+        }
         put_bytes(out, packed);
     }
     const std::uint64_t at = out.size();

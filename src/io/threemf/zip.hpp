@@ -48,7 +48,8 @@ struct ArchiveFile {
     Bytes bytes;
 };
 
-/// Makes an archive of deflated files. It stores no times, so that equal files give equal bytes.
-[[nodiscard]] Bytes make_archive(const std::vector<ArchiveFile>& files);
+/// Makes an archive. It stores no times, so that equal files give equal bytes. alignment: 0 deflates the
+/// files; otherwise they are stored, and the bytes of each begin at a multiple of it.
+[[nodiscard]] Bytes make_archive(const std::vector<ArchiveFile>& files, std::size_t alignment = 0);
 
 } // namespace facetmill::io::threemf

@@ -28,6 +28,11 @@ The stage load reads all of this back unchanged.
 W-TEXTURES and W-MTL list material properties that MTL cannot store, and W-ATTRIBUTE lists
 attributes that OBJ cannot store.
 
+USDZ, for phones, stores nodes, shared meshes, normals, UVs, colours and materials, with textures as
+PNG or JPEG.
+WebP and AVIF become PNG.
+Skins, morph targets and animations are not written (W-ANIMATION).
+
 PLY, OBJ, OFF, glTF and Draco store points.
 PLY, OBJ and glTF store lines.
 In glTF, meshopt compresses points and lines, and Draco does not.
