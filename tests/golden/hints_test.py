@@ -310,6 +310,8 @@ FOLLOWED = [
     ("W-COMBINE-NOTHING", "pipe load '{part,far}.off' ! combine --operation intersection --with far", "overlap",
      "pipe load '{part,over}.off' ! combine --operation intersection --with over ! write o.ply"),
     ("W-CONVENTION", "render part.off ten.off -o p.png", "use --unit cm,mm", "render part.off ten.off -o p.png --unit cm,mm"),
+    ("E-EXTRUDE", "pipe load terrain.off ! extrude 0.2 ! write o.ply", "give a level below -0.5",
+     "pipe load terrain.off ! extrude -1 ! write o.ply"),
     ("E-VOLUME", "pipe load terrain.off ! volume", "give a level", "pipe load terrain.off ! volume .5"),
     ("W-VOLUME-MISSING", "pipe load terrain.off ! volume .5 --footprint 'POLYGON ((9 9, 20 9, 20 12))'", "use a smaller footprint",
      "pipe load terrain.off ! volume .5 --footprint 'POLYGON ((9 9, 15 9, 15 12))'"),
