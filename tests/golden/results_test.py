@@ -91,7 +91,7 @@ RUNS = [
     "load cubes.obj ! section z=0.5 --hatch 10% ! section --count 4 ! section z=9",
     "load open.off ! section z=0.5 ! section --count 3",
     "load cubes.obj ! volume 0.5",
-    "load step.off ! extrude -1",
+    "load step.off ! extrude -1 ! transform --place.lat 48 --place.lon 2 ! write p.ply",
     "load step.off ! volume 0.25 --footprint [[0,0],[1,0],[0,1]] ! volume --with step.off",
     "load cubes.obj ! measure --density 2 ! measure --path m.json ! probe 0.5,0.5,0.5 ! probe --points_of a",
     "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 ! probe --rays 0.5,0.5,-1,0,0,1 ! probe --along NORMAL",
