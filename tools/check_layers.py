@@ -36,6 +36,7 @@ PUBLIC = {
     "geometry/triangulate": "triangles of faces, for files, pictures and algorithms: tools, used one by one",
     "geometry/boolean": "unions and Boolean operations, whose steps clean shares",
     "geometry/clean/steps.hpp": "repairs that unions end with",
+    "geometry/thicken/extrude.hpp": "solids of terrains, straight along an axis",
     "geometry/deviation/deviation_fields.hpp": "the declared fields of a deviation, which reports show",
     "geometry/hull/convex_parts.hpp": "convex decomposition, which hulls follow",
     "geometry/inspect/connectivity.hpp": "components of a mesh",

@@ -12,7 +12,7 @@ const RegisterMessages batch_messages{
      {ErrorKind::malformed, ErrorKind::output}},
     {"E-TABLE",
      "A table of params for a batch cannot be read. A row has too few or too many cells, a quote is not "
-     "closed, or a column name is missing or repeated.",
+     "closed, or a column name is missing or repeated. Or a feature of a GeoJSON is not a polygon.",
      "Correct the row given in the message. Start a CSV file with a line of param names, or write YAML as a "
      "list of maps.",
      ErrorKind::malformed},

@@ -1,6 +1,8 @@
 #include "batch/table.hpp"
 
 #include "base/error.hpp"
+#include "base/json.hpp"
+#include "base/math/numbers.hpp"
 #include "base/text/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
@@ -144,6 +146,86 @@ std::vector<Row> yaml_rows(std::shared_ptr<const SourceText> source) {
     return rows;
 }
 
+// --- GeoJSON: a row per feature
+
+class FeatureRows {
+  public:
+    explicit FeatureRows(const std::shared_ptr<const SourceText>& source) : where_{source} {}
+
+    std::vector<Row> read() {
+        Json json;
+        try {
+            json = parse_json(where_.source->text);
+        } catch (const Json::exception&) {
+            refuse_table(where_, "this is not JSON");
+        }
+        if (!json.is_object() || !json.contains("features") || !json["features"].is_array())
+            refuse_table(where_, "this GeoJSON has no features", "save the polygons as a FeatureCollection");
+        std::vector<Row> rows;
+        std::set<std::string> names;
+        const Json& features = json["features"];
+        rows.reserve(features.size());
+        for (const Json& feature : features) {
+            if (!feature.is_object()) refuse_table(where_, "a feature is not an object");
+            std::string name = name_of(feature);
+            if (name.empty()) name = std::to_string(rows.size() + 1);
+            if (!names.insert(name).second)
+                refuse_table(where_, fmt::format("two features are named '{}'", name),
+                             "give each feature its own name or id");
+            rows.push_back({{"name", name, where_}, {"feature", wkt_of(feature, name), where_}});
+        }
+        return rows;
+    }
+
+  private:
+    /// The property name or id, otherwise the feature's id. Characters that separate folders become _.
+    static std::string name_of(const Json& feature) {
+        std::string name;
+        const auto take = [&](const Json& object, const char* key) {
+            if (!name.empty() || !object.is_object() || !object.contains(key)) return;
+            const Json& value = object[key];
+            name = value.is_string() ? value.get<std::string>() : value.is_number() ? value.dump() : "";
+        };
+        static const Json nothing;
+        const Json& properties = feature.contains("properties") ? feature["properties"] : nothing;
+        for (const char* key : {"name", "Name", "NAME", "id", "ID", "fid"}) take(properties, key);
+        take(feature, "id");
+        for (char& c : name)
+            if (c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ') c = '_';
+        return name == "." || name == ".." ? "_" : name;
+    }
+
+    /// The polygons of a feature as WKT, which crop and volume read.
+    std::string wkt_of(const Json& feature, const std::string& name) const {
+        static const Json nothing;
+        const Json& shape = feature.contains("geometry") ? feature["geometry"] : nothing;
+        const std::string type = shape.is_object() ? shape.value("type", Json()).dump() : "";
+        const Json coordinates = shape.is_object() ? shape.value("coordinates", Json()) : Json();
+        if (type == "\"Polygon\"") return "POLYGON " + nested(coordinates, 2, name);
+        if (type == "\"MultiPolygon\"") return "MULTIPOLYGON " + nested(coordinates, 3, name);
+        refuse_table(where_, fmt::format("feature '{}' is not a polygon", name),
+                     "save only features of type Polygon or MultiPolygon");
+    }
+    /// Lists of positions in brackets. depth: the levels of lists above a position.
+    std::string nested(const Json& list, int depth, const std::string& name) const {
+        if (!list.is_array() || (depth == 0 && list.size() < 2))
+            refuse_table(where_, fmt::format("the coordinates of feature '{}' are malformed", name));
+        std::string text;
+        if (depth == 0) {
+            for (std::size_t i = 0; i < 2; ++i) {
+                if (!list[i].is_number())
+                    refuse_table(where_, fmt::format("the coordinates of feature '{}' are malformed", name));
+                text += (i > 0 ? " " : "") + to_string(list[i].get<double>());
+            }
+            return text;
+        }
+        for (const Json& item : list) text += (text.empty() ? "" : ", ") + nested(item, depth - 1, name);
+        return "(" + text + ")";
+    }
+
+    Mark where_;
+};
+
 } // namespace
 
 std::vector<Row> read_params_table(const std::filesystem::path& file) {
@@ -154,7 +236,9 @@ std::vector<Row> read_params_table(const std::filesystem::path& file) {
     if (!yaml) bytes = without_byte_order_mark(bytes); // the YAML reader includes it in its marks
     const std::string name = file == "-" ? "standard input" : file.generic_string();
     const auto source = std::make_shared<const SourceText>(SourceText{name, std::string(bytes)});
-    auto rows = yaml ? yaml_rows(source) : csv_rows(source);
+    auto rows = extension == ".geojson" ? FeatureRows(source).read()
+                : yaml                  ? yaml_rows(source)
+                                        : csv_rows(source);
     std::erase_if(rows, [](const Row& row) { return row.empty(); });
     if (rows.empty()) refuse_table({source}, "the table has no rows");
     return rows;

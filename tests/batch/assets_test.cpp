@@ -135,3 +135,37 @@ TEST_CASE("an empty table of params is refused by its name", "[batch]") {
         CHECK(to_string(e.diagnostics()[0].where) == (directory / "empty.csv").string());
     }
 }
+
+TEST_CASE("each feature of a GeoJSON is an asset with its polygon and name", "[batch]") {
+    const TemporaryDirectory dir;
+    const auto feature = [](const std::string& more, const std::string& geometry) {
+        return R"({"type": "Feature", )" + more + R"("geometry": )" + geometry + "}";
+    };
+    const std::string square =
+        R"({"type": "Polygon", "coordinates": [[[0, 0], [2.5, 0], [2.5, 2, 9], [0, 0]]]})";
+    const std::string two =
+        R"({"type": "MultiPolygon", "coordinates": [[[[0, 0], [1, 0], [1, 1]]], [[[5, 5], [6, 5], [6, 6]]]]})";
+    const auto table = [&](const std::string& features) {
+        put(dir / "t.geojson", R"({"type": "FeatureCollection", "features": [)" + features + "]}");
+        auto sources = sources_of({});
+        sources.table = (dir / "t.geojson").string();
+        return batch::find_assets(sources);
+    };
+    const auto assets = table(feature(R"("properties": {"name": "north/1", "size": 3}, )", square) + ", " +
+                              feature(R"("id": 7, "properties": null, )", two) + ", " + feature("", square));
+    REQUIRE(assets.size() == 3);
+    CHECK(assets[0].name == "north_1");
+    CHECK(assets[0].defines == std::vector<std::pair<std::string, std::string>>{
+                                   {"name", "north_1"}, {"feature", "POLYGON ((0 0, 2.5 0, 2.5 2, 0 0))"}});
+    CHECK(assets[1].name == "7");
+    CHECK(assets[1].defines[1].second == "MULTIPOLYGON (((0 0, 1 0, 1 1)), ((5 5, 6 5, 6 6)))");
+    CHECK(assets[2].name == "3");
+    const auto refused = [&](const std::string& features) { return failure([&] { table(features); }); };
+    CHECK(refused(feature("", square) + ", " + feature(R"("id": 1, )", square))
+              .find("two features are named '1'") != std::string::npos);
+    CHECK(refused(feature("", R"({"type": "Point", "coordinates": [1, 2]})")).find("is not a polygon") !=
+          std::string::npos);
+    CHECK(refused(feature("", R"({"type": "Polygon", "coordinates": [[[1], 2]]})")).find("malformed") !=
+          std::string::npos);
+    CHECK(refused(feature("", "null")).find("is not a polygon") != std::string::npos);
+}

@@ -23,6 +23,7 @@ CUBES = "".join(
     for n, (name, x) in enumerate((("a", 0), ("b", 3))))
 OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
 FLIPPED = OPEN.replace("3 2 0 3", "3 0 2 3")  # one face is turned round
+STEP = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 1\n3 0 1 2\n"
 HOURGLASS = ("OFF\n7 8 0\n0 0 0\n1 0 1\n0 1 1\n-1 -1 1\n1 0 -1\n0 1 -1\n-1 -1 -1\n"
              "3 0 2 1\n3 0 3 2\n3 0 1 3\n3 1 2 3\n3 0 4 5\n3 0 5 6\n3 0 6 4\n3 4 6 5\n")  # they touch at a vertex
 CROSSED = "OFF\n8 6 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (2, 2), (2, 0), (0, 1))) + (
@@ -89,6 +90,9 @@ RUNS = [
     "load open.off ! clip z=0.5 --cap ! clean --holes minimal ! measure ! probe 0,0,0",
     "load cubes.obj ! section z=0.5 --hatch 10% ! section --count 4 ! section z=9",
     "load open.off ! section z=0.5 ! section --count 3",
+    "load cubes.obj ! volume 0.5",
+    "load step.off ! extrude -1 ! transform --place.lat 48 --place.lon 2 ! write p.ply",
+    "load step.off ! volume 0.25 --footprint [[0,0],[1,0],[0,1]] ! volume --with step.off",
     "load cubes.obj ! measure --density 2 ! measure --path m.json ! probe 0.5,0.5,0.5 ! probe --points_of a",
     "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 ! probe --rays 0.5,0.5,-1,0,0,1 ! probe --along NORMAL",
     "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 --face 0 ! probe --rays 9,9,9,0,0,1 --face 0",
@@ -143,6 +147,7 @@ class Results(Case):
         self.write("cubes.obj", CUBES)
         self.write("open.off", OPEN)
         self.write("flipped.off", FLIPPED)
+        self.write("step.off", STEP)
         self.write("hourglass.off", HOURGLASS)
         self.write("crossed.off", CROSSED)
         self.write("textured.gltf", json.dumps(TEXTURED))

@@ -123,7 +123,7 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
         return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{path: a.pdf}") == "usage [E-DRAWING] test.yaml:1:8: section: 'a.pdf' is not a supported "
-                                      "drawing format | use .svg, .dxf or .json");
+                                      "drawing format | use .svg, .dxf, .geojson or .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") == "usage [E-PLANE] test.yaml:1:1: the plane's normal is "
                                                      "zero, so it has no direction | give a direction: "
                                                      "plane: {normal: [0, 0, 1]}");
@@ -159,4 +159,33 @@ TEST_CASE("section warns of contours that run clockwise or cross themselves", "[
           "1 contour intersects itself: every region that it winds around counts as inside");
     CHECK(run.record.result["area"] == 0.5);
     CHECK(run.record.result["empty"] == 0);
+}
+
+TEST_CASE("section draws contours of a terrain over each other, without warnings", "[stages]") {
+    Mesh hill = shapes::grid(8, 8);
+    for (Vec3& p : hill.positions) p = {p.x + 500000, p.y + 5200000, p.x / 2};
+    const test::TemporaryDirectory folder;
+    const auto path = [&](const char* name) { return (folder / name).string(); };
+    const auto run = run_stage("section",
+                               "{layout: contours, spacing: 1, scale: 1000, path: [\"" + path("m.svg") +
+                                   "\", \"" + path("m.dxf") + "\", \"" + path("m.geojson") + "\"]}",
+                               scene_of(hill, Unit::m));
+    CHECK(run.warnings().empty());
+    const Json& r = run.record.result;
+    CHECK(r["planes"] == 5); // heights 0 to 4
+    CHECK(r["length"].get<double>() == Approx(32));
+    CHECK_FALSE(r.contains("ratio"));
+    CHECK(r["sections"][1]["height"] == 1);
+    CHECK(run.record.said == std::vector<std::string>{"5 sections: length 32 m, 4 contours, 1 empty"});
+}
+
+TEST_CASE("a profile is upright", "[stages]") {
+    CHECK(test::refusal_of("section", "{plane: z=50%, layout: profile}", scene_of(shapes::grid(4, 4)))
+              .starts_with("usage [E-SECTION] the plane of a profile is not upright"));
+    CHECK(test::refusal_of("section", "{plane: x=50%, exaggeration: 2}", scene_of(shapes::grid(4, 4)))
+              .find("layout: profile") != std::string::npos);
+    const auto run = run_stage("section", "{plane: y=50%, layout: profile, exaggeration: 5}",
+                               scene_of(shapes::grid(4, 4)));
+    CHECK(run.warnings().empty());
+    CHECK(run.record.result["length"] == 4);
 }

@@ -1,3 +1,5 @@
+#include "base/math/portable_math.hpp"
+#include "geometry/globe/globe.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/run_stage.hpp"
@@ -150,4 +152,42 @@ TEST_CASE("transform names options without effect", "[stages]") {
     CHECK(failure([] {
               run_stage("transform", "{pivot: centre}", scene_of(shapes::cube()));
           }).find("1:9: transform: 'pivot' needs scale, rotate, orient_for or fit") != std::string::npos);
+}
+
+TEST_CASE("place puts the origin of a scene on the globe", "[stages]") {
+    Scene scene = scene_of(shapes::cube(), Unit::mm);
+    scene.up = UpAxis::y;
+    const auto run =
+        run_stage("transform", "{place: {lat: 48.8584, lon: 2.2945, height: 330m, heading: 90}}", scene);
+    const Part& part = run.scene.parts[0];
+    CHECK(run.scene.unit == Unit::m);
+    CHECK(length(part.transform.point({}) - Vec3{4201152.758655, 168331.794517, 4780461.560653}) < 1e-4);
+    // The y axis of the file is up: 10 m higher.
+    CHECK(length(part.transform.point({0, 10000, 0}) -
+                 geocentric({48.8584 * pi / 180, 2.2945 * pi / 180, 340})) < 1e-4);
+    CHECK(run.record.result["globe"]["lat"].get<double>() == Approx(48.8584));
+    CHECK(run.record.result["unit"] == "m");
+    CHECK(run.warnings().empty());
+}
+
+TEST_CASE("crs converts every vertex to geocentric coordinates", "[stages]") {
+    Scene scene = scene_of(shapes::grid(4, 4));
+    for (Vec3& p : scene.parts[0].mesh.positions) p = {500608 + 1000 * p.x, 5200512 + 1000 * p.y, 384};
+    const auto run = run_stage("transform", "{crs: \"EPSG:32632\", geoid: 47}", scene);
+    const auto system = ProjectedSystem::named("EPSG:32632");
+    REQUIRE(system);
+    const auto& positions = run.mesh().positions;
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        CHECK(length(positions[v] - system->geocentric(scene.parts[0].mesh.positions[v] + Vec3{0, 0, 47})) <
+              1e-6);
+    CHECK(run.record.result["globe"]["height"].get<double>() == Approx(384 + 47));
+    CHECK(run.warnings().empty());
+    const auto refused = [&](const char* options) { return test::refusal_of("transform", options, scene); };
+    CHECK(
+        refused("{crs: \"EPSG:31467\"}").starts_with("usage [E-CRS] transform: 'EPSG:31467' is not a known"));
+    CHECK(refused("{crs: \"EPSG:32632\", place: {lat: 1, lon: 2}}").find("cannot be combined") !=
+          std::string::npos);
+    CHECK(refused("{geoid: 47}").find("needs crs") != std::string::npos);
+    CHECK(test::refusal_of("transform", "{crs: \"EPSG:32632\"}", scene_of(shapes::grid(4, 4)))
+              .find("seems to be in degrees") != std::string::npos);
 }

@@ -1,7 +1,6 @@
 #include "geometry/polygon/triangulate_rings.hpp"
 
 #include "base/math/predicates.hpp"
-#include "geometry/cgal/triangulate_polygon.hpp"
 
 #include <algorithm>
 
@@ -30,13 +29,15 @@ bool turn_left(std::array<Index, 3>& t, const std::vector<Vec2>& points) {
 
 } // namespace
 
-Triangulation triangulate_rings(Rings rings) {
-    Contours contours = contours_of(rings);
-    Filling filling = fill(contours);
+Triangulation triangulate_rings(Rings rings) { return triangulate_contours(contours_of(rings)); }
+
+Triangulation triangulate_contours(const Contours& contours) {
+    const Filling filling = fill(contours);
+    std::vector<Vec2> points = contours.points;
     Triangulation out;
     for (const auto& a : filling.added) {
         out.added.push_back({a.at, a.edge, a.t});
-        contours.points.push_back(a.at);
+        points.push_back(a.at);
     }
     struct Counted {
         std::array<Index, 3> triangle;
@@ -44,7 +45,7 @@ Triangulation triangulate_rings(Rings rings) {
     };
     std::vector<Counted> all;
     for (auto t : filling.triangles) {
-        const bool clockwise = turn_left(t, contours.points);
+        const bool clockwise = turn_left(t, points);
         all.push_back({t, clockwise ? -1 : 1});
     }
     std::sort(all.begin(), all.end(),

@@ -2,6 +2,7 @@
 // Triangulates polygons with holes, and any other sets of rings, and gives winding numbers. CGAL makes a
 // constrained Delaunay triangulation; this header does not include it.
 
+#include "geometry/cgal/triangulate_polygon.hpp"
 #include "geometry/polygon/polygon.hpp"
 
 #include <array>
@@ -30,6 +31,8 @@ struct Triangulation {
 /// where edges cross. Callers select by winding for their fill rule: odd, all or positive. Rings without
 /// area give no triangles.
 [[nodiscard]] Triangulation triangulate_rings(Rings rings);
+/// The same for contours. Corners are numbered as points, and AddedPoint::edge is an edge.
+[[nodiscard]] Triangulation triangulate_contours(const Contours& contours);
 
 /// The smallest and the largest winding number of any point off the rings. Far away it is 0, so 0 is always
 /// in the range. Exact.

@@ -9,6 +9,7 @@
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"
+#include "geometry/thicken/doubled.hpp"
 #include "geometry/thicken/moved_surface.hpp"
 #include "geometry/thicken/redrawn_flats.hpp"
 #include "geometry/thicken/resolve.hpp"
@@ -29,68 +30,6 @@
 namespace facetmill {
 
 namespace {
-
-// Shared by thicken and two-sided: a surface and its back.
-
-/// The surface and its back. The back of face f is face f + face_count, and the back of wedge w is w +
-/// wedge_count.
-struct Doubled {
-    Mesh mesh;                 ///< has an explicit wedge_vertex, and no attributes
-    MeshProvenance provenance; ///< complete for these faces; callers extend it
-};
-
-/// back_vertex: the counterpart of each vertex on the back, either the vertex itself or a new vertex
-/// numbered from the vertex count on. New vertices are copies of back_copies.
-Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
-                const std::vector<Index>& back_copies) {
-    Doubled d;
-    const auto wedges = explicit_wedges(mesh);
-    const auto count = static_cast<Index>(wedges.size());
-    d.mesh.positions = mesh.positions;
-    for (const Index v : back_copies) d.mesh.positions.push_back(mesh.positions[v]);
-    d.mesh.wedge_vertex = wedges;
-    for (const Index v : wedges) d.mesh.wedge_vertex.push_back(back_vertex[v]);
-    d.mesh.corners = mesh.corners;
-    d.mesh.face_offsets = mesh.face_offsets;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-        d.mesh.corners.push_back(count + mesh.corners[begin]);
-        for (Index c = end - 1; c > begin; --c) d.mesh.corners.push_back(count + mesh.corners[c]);
-        if (!mesh.all_triangles()) d.mesh.face_offsets.push_back(static_cast<Index>(d.mesh.corners.size()));
-    }
-    for (int side = 0; side < 2; ++side) {
-        for (Index w = 0; w < count; ++w) d.provenance.wedges.copies.push_back(w);
-        for (Index f = 0; f < mesh.face_count(); ++f) d.provenance.faces.push_back(f);
-    }
-    for (Index v = 0; v < mesh.vertex_count(); ++v) d.provenance.vertices.copies.push_back(v);
-    d.provenance.vertices.copies.insert(d.provenance.vertices.copies.end(), back_copies.begin(),
-                                        back_copies.end());
-    return d;
-}
-
-/// Reverses the normals of the wedges from `first` on, and the handedness of their tangents.
-void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
-    for (auto& a : mesh.attributes) {
-        if (a.domain != Domain::wedge || !(a.role == Role::normal || a.role == Role::tangent)) continue;
-        for (std::size_t w = first; w < a.size(); ++w) {
-            if (a.role == Role::normal)
-                for (int c = 0; c < a.components; ++c) a.set_value(w, c, -a.value(w, c));
-            else if (a.components == 4)
-                a.set_value(w, 3, -a.value(w, 3));
-        }
-        for (auto& f : changes)
-            if (f.attribute == a.name && f.domain == a.domain)
-                f = {a.name, a.domain, AttributeChange::Kind::recomputed, "reversed on the back"};
-    }
-}
-
-/// Returns boundary_edges, sorted by corner.
-std::vector<BoundaryEdge> boundary_by_corner(const Mesh& mesh) {
-    auto edges = boundary_edges(mesh);
-    std::sort(edges.begin(), edges.end(),
-              [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.corner < b.corner; });
-    return edges;
-}
 
 /// A symmetric 3 x 3 system a x = b, by cofactors.
 struct System {
@@ -172,39 +111,6 @@ Directions directions(const Mesh& mesh, double limit, const Transform& to_world)
     d.limited = static_cast<std::size_t>(std::count(kind.begin(), kind.end(), 1));
     d.still = static_cast<std::size_t>(std::count(kind.begin(), kind.end(), 2));
     return d;
-}
-
-/// Adds walls between front and back. If the mesh has normals, each wall has separate wedges, listed in
-/// `normals`.
-std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index, Vec3>>& normals) {
-    const bool own = mesh.find("NORMAL", Domain::wedge) != nullptr;
-    const auto back = static_cast<Index>(mesh.wedge_count());
-    std::size_t added = 0;
-    for (const BoundaryEdge& e : boundary_by_corner(mesh)) {
-        const Index u = mesh.corners[e.corner], v = mesh.corners[next_corner(mesh, e.face, e.corner)];
-        std::array<Index, 4> ring{v, u, back + u, back + v};
-        if (own) {
-            const auto at = [&](std::size_t i) { return d.mesh.positions[d.mesh.vertex_of_wedge(ring[i])]; };
-            const Vec3 normal = normalised(cross(at(2) - at(0), at(3) - at(1)));
-            for (Index& w : ring) {
-                d.provenance.wedges.copies.push_back(w % back);
-                d.mesh.wedge_vertex.push_back(d.mesh.wedge_vertex[w]);
-                w = static_cast<Index>(d.mesh.wedge_vertex.size() - 1);
-                normals.emplace_back(w, normal);
-            }
-        }
-        if (mesh.all_triangles()) {
-            add_face(d.mesh, std::array{ring[0], ring[1], ring[2]});
-            add_face(d.mesh, std::array{ring[0], ring[2], ring[3]});
-            d.provenance.faces.insert(d.provenance.faces.end(), {e.face, e.face});
-            added += 2;
-        } else {
-            add_face(d.mesh, ring);
-            d.provenance.faces.push_back(e.face);
-            ++added;
-        }
-    }
-    return added;
 }
 
 /// The side of a face in the solid.
@@ -497,14 +403,12 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
         d.mesh.positions[v] += ways.of_vertex[v] * out;
         d.mesh.positions[n + v] += ways.of_vertex[v] * (out - s.thickness);
     });
-    std::vector<std::pair<Index, Vec3>> wall_normals;
+    WedgeNormals wall_normals;
     r.wall_faces = add_walls(mesh, d, wall_normals);
     r.changes = inherit_attributes(d.mesh, mesh, d.provenance);
     // Set wall normals last, because turn_wedges would also reverse them.
     turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
-    if (Attribute* normals = d.mesh.find("NORMAL", Domain::wedge))
-        for (const auto& [w, normal] : wall_normals)
-            for (int c = 0; c < 3; ++c) normals->set_value(w, c, normal[static_cast<std::size_t>(c)]);
+    set_normals(d.mesh, wall_normals);
     if (!mesh.has_seams() && wall_normals.empty()) d.mesh.wedge_vertex = {};
     drop_unused(d.mesh, vertices_of_faces(mesh));
     r.limited = ways.limited;

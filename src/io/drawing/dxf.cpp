@@ -2,6 +2,9 @@
 
 #include "base/math/numbers.hpp"
 
+#include <algorithm>
+#include <fmt/format.h>
+
 namespace facetmill::io {
 
 namespace {
@@ -50,17 +53,28 @@ class Writer {
     std::string text;
 };
 
-void layers(Writer& w, std::size_t sheets) {
+/// The layer of a sheet. Names in release 12 have letters, digits, $, - and _, and at most 31 of them.
+std::string layer_of(const Drawing& drawing, const Paper& paper, std::size_t i) {
+    const auto elevation = paper.elevation(drawing.sheets[i]);
+    if (drawing.layout.kind != DrawingLayout::Kind::contours || !elevation)
+        return "SECTION_" + std::to_string(i + 1);
+    std::string name = fmt::format("CONTOUR_{:.10g}", *elevation);
+    std::replace(name.begin(), name.end(), '.', '_');
+    std::erase(name, '+');
+    return name;
+}
+
+void layers(Writer& w, const std::vector<std::string>& names) {
     w.group(0, "SECTION");
     w.group(2, "TABLES");
     w.group(0, "TABLE");
     w.group(2, "LAYER");
-    w.group(70, 2 * sheets);
-    for (std::size_t i = 1; i <= sheets; ++i)
-        for (const auto& [name, colour] :
-             {std::pair{"SECTION_", std::size_t{7}}, std::pair{"HATCH_", std::size_t{8}}}) {
+    w.group(70, 2 * names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        for (const auto& [name, colour] : {std::pair{names[i], std::size_t{7}},
+                                           std::pair{"HATCH_" + std::to_string(i + 1), std::size_t{8}}}) {
             w.group(0, "LAYER");
-            w.group(2, name + std::to_string(i));
+            w.group(2, name);
             w.group(70, std::size_t{0});
             w.group(62, colour);
             w.group(6, "CONTINUOUS");
@@ -81,6 +95,14 @@ void polyline(Writer& w, polygon::Ring ring, bool closed, const std::string& lay
     w.start("SEQEND", layer);
 }
 
+/// The elevation of the entities of a sheet.
+double elevation_of(const Drawing& drawing, const Paper& paper, const Sheet& sheet) {
+    const double above = dot(sheet.frame.origin, sheet.frame.normal);
+    if (drawing.layout.kind == DrawingLayout::Kind::profile) return 0;
+    return drawing.layout.kind == DrawingLayout::Kind::contours ? paper.elevation(sheet).value_or(above)
+                                                                : above;
+}
+
 } // namespace
 
 std::string to_dxf(const Drawing& drawing) {
@@ -94,20 +116,23 @@ std::string to_dxf(const Drawing& drawing) {
     w.group(9, "$INSUNITS");
     w.group(70, static_cast<std::size_t>(insunits(drawing.unit)));
     w.group(0, "ENDSEC");
-    layers(w, drawing.sheets.size());
+    const Paper paper(drawing);
+    std::vector<std::string> names;
+    names.reserve(drawing.sheets.size());
+    for (std::size_t i = 0; i < drawing.sheets.size(); ++i) names.push_back(layer_of(drawing, paper, i));
+    layers(w, names);
     w.group(0, "SECTION");
     w.group(2, "ENTITIES");
     for (std::size_t i = 0; i < drawing.sheets.size(); ++i) {
         const Sheet& sheet = drawing.sheets[i];
-        const double z = dot(sheet.frame.origin, sheet.frame.normal);
+        const double z = elevation_of(drawing, paper, sheet);
         for (const auto& part : sheet.parts) {
             for (const Contour& c : part.section.contours)
-                polyline(w, part.section.ring(c), c.role != ContourRole::open,
-                         "SECTION_" + std::to_string(i + 1), z);
+                polyline(w, paper.at(sheet, part.section.ring(c)), c.role != ContourRole::open, names[i], z);
             for (const auto& h : part.hatch) {
                 w.start("LINE", "HATCH_" + std::to_string(i + 1));
-                w.point(10, h.a, z);
-                w.point(11, h.b, z);
+                w.point(10, paper.at(sheet, h.a), z);
+                w.point(11, paper.at(sheet, h.b), z);
             }
         }
     }

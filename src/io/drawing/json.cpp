@@ -49,18 +49,45 @@ std::string to_json(const Drawing& drawing) {
     return document.dump(1) + "\n";
 }
 
+std::string to_geojson(const Drawing& drawing) {
+    const Paper paper(drawing);
+    const std::size_t north = drawing.up == UpAxis::y ? 2 : 1, up = 3 - north;
+    Json features = Json::array();
+    for (const Sheet& sheet : drawing.sheets)
+        for (const DrawnPart& part : sheet.parts)
+            for (const Contour& c : part.section.contours) {
+                Json line = Json::array();
+                const auto add = [&](const Vec2& p) {
+                    const Vec3 world = sheet.frame.point(p);
+                    line.push_back(Json::array({world.x, world[north], world[up]}));
+                };
+                const polygon::Ring ring = part.section.ring(c);
+                const bool closed = c.role != ContourRole::open;
+                for (const Vec2& p : ring) add(p);
+                if (closed && !ring.empty()) add(ring.front());
+                Json properties = {{"part", part.name}, {"height", sheet.height}, {"closed", closed}};
+                if (const auto elevation = paper.elevation(sheet)) properties["elevation"] = *elevation;
+                features.push_back(
+                    {{"type", "Feature"},
+                     {"properties", std::move(properties)},
+                     {"geometry", {{"type", "LineString"}, {"coordinates", std::move(line)}}}});
+            }
+    return Json{{"type", "FeatureCollection"}, {"features", std::move(features)}}.dump(1) + "\n";
+}
+
 bool is_drawing(const std::string& path) {
     const std::string e = extension_of(path);
-    return e == "svg" || e == "dxf" || e == "json";
+    return e == "svg" || e == "dxf" || e == "geojson" || e == "json";
 }
 
 std::string drawing_for(const std::string& path, const Drawing& drawing) {
     const std::string e = extension_of(path);
     if (e == "svg") return to_svg(drawing);
     if (e == "dxf") return to_dxf(drawing);
+    if (e == "geojson") return to_geojson(drawing);
     if (e == "json") return to_json(drawing);
     throw Error(ErrorKind::usage, "E-DRAWING", fmt::format("sections are not written as '{}'", path),
-                "the formats are .svg, .dxf and .json");
+                "the formats are .svg, .dxf, .geojson and .json");
 }
 
 } // namespace facetmill::io

@@ -86,8 +86,9 @@ std::optional<Diagnostic> warning_of_place(const TilesetFrame& frame) {
                     "about {:.0f} km {} the ground, but it seems to be projected (UTM or a national grid)",
                     readable(frame.origin, ", "), std::abs(above), above < 0 ? "below" : "above"),
         {},
-        "use transform: {centre: true} and place the tileset by the viewer's model matrix, or convert the "
-        "coordinates to EPSG:4978 first"};
+        "give the coordinate system with transform: {crs: \"EPSG:25832\"}, or use transform: {centre: true} "
+        "and "
+        "place the tileset with transform: {place: {lat: 48.86, lon: 2.29}}"};
 }
 
 void put_into_frame(std::vector<Vec3>& positions, const TilesetFrame& frame) {

@@ -11,8 +11,8 @@ const RegisterMessages tileset_messages{
     {"W-GEOCENTRIC",
      "A tileset has projected coordinates, such as UTM. Globe viewers read the root's transform as "
      "geocentric coordinates (ECEF), so they show the tiles far from their position.",
-     "Use `transform: {centre: true}` before `write`, and place the tileset by the viewer's model matrix, in "
-     "Cesium `tileset.modelMatrix`. Or convert the coordinates to EPSG:4978 first."},
+     "Use `transform: {crs: \"EPSG:25832\"}` before `write`, with the coordinate system of the mesh. Or use "
+     "`transform: {centre: true}`, and `place` for its latitude and longitude."},
 };
 
 } // namespace facetmill

@@ -4,10 +4,10 @@
 #include "stage/both_sides.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
+#include "stage/options/footprint.hpp"
 #include "stage/options/kept_parts.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
-#include "stages/crop/footprint.hpp"
 #include "stages/crop/help.hpp"
 
 #include <algorithm>
@@ -34,12 +34,11 @@ struct CropReport {
     KeptParts kept;
 };
 
-enum class Axis { up, x, y, z };
 enum class CropKeep { inside, outside, both };
 
 struct CropOptions {
     FootprintOption footprint;
-    Axis axis = Axis::up;
+    ViewAxis axis = ViewAxis::up;
     CropBy by = CropBy::cut;
     CropKeep keep = CropKeep::inside;
     InsideBy inside_by = InsideBy::crossings;
@@ -56,12 +55,7 @@ void declare(Declare<CropOptions>& d) {
          "inside another is a hole. Coordinates are in scene units, unless a DXF gives its own unit.")
         .required()
         .primary();
-    d.choice<Axis>("axis", &CropOptions::axis,
-                   {{"up", Axis::up, "the scene's up axis, or z if it is unknown"},
-                    {"x", Axis::x, "the footprint is in y and z"},
-                    {"y", Axis::y, "the footprint is in x and z"},
-                    {"z", Axis::z, "the footprint is in x and y"}},
-                   "The axis to look along.");
+    declare_view_axis(d, &CropOptions::axis);
     d.choice<CropBy>(
         "by", &CropOptions::by,
         {{"cut", CropBy::cut, "cut faces at the outline"},
@@ -86,11 +80,6 @@ void declare(Declare<CropOptions>& d) {
     declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
     declare_triangulate(d, &CropOptions::triangulate);
     declare_snap(d, &CropOptions::snap, "the outline");
-}
-
-std::size_t axis_of(const CropOptions& o, const Scene& scene) {
-    if (o.axis == Axis::up) return scene.up == UpAxis::y ? 1 : 2;
-    return o.axis == Axis::x ? 0 : o.axis == Axis::y ? 1 : 2;
 }
 
 void declare_report(DeclareFields<CropReport>& d) {
@@ -161,54 +150,9 @@ class CropRun {
         part.mesh = std::move(sides[0].mesh);
     }
 
-    struct Bounds {
-        double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-        void add(double u, double v) {
-            low[0] = std::min(low[0], u);
-            low[1] = std::min(low[1], v);
-            high[0] = std::max(high[0], u);
-            high[1] = std::max(high[1], v);
-        }
-        void add(const Bounds& b) {
-            add(b.low[0], b.low[1]);
-            add(b.high[0], b.high[1]);
-        }
-        std::string text() const {
-            return fmt::format("({:.10g}, {:.10g}) to ({:.10g}, {:.10g})", low[0], low[1], high[0], high[1]);
-        }
-        /// Whether the coordinates may be longitudes and latitudes.
-        bool may_be_degrees() const {
-            return low[0] >= -180 && high[0] <= 180 && low[1] >= -90 && high[1] <= 90;
-        }
-        double longest_side() const { return std::max(high[0] - low[0], high[1] - low[1]); }
-    };
-    Bounds bounds_of_footprint() const {
-        Bounds b;
-        for (const auto& ring : footprint_.rings())
-            for (const auto& p : ring) b.add(p.x, p.y);
-        return b;
-    }
-    Bounds bounds_of(const Part& part) const {
-        Bounds b;
-        for (const Vec3& local : part.mesh.positions) {
-            const Vec3 p = part.transform.point(local);
-            b.add(p[settings_.axis == 0 ? 1 : 0], p[settings_.axis == 2 ? 1 : 2]);
-        }
-        return b;
-    }
     std::string where_they_are() const {
-        return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of_footprint().text(),
+        return fmt::format("the footprint reaches from {}, the {} from {}", bounds_of(footprint_).text(),
                            report_.kept.all() == 1 ? "part" : "scene", emptied_.text());
-    }
-    /// Whether the footprint seems to be in degrees and the parts in metres. Coordinates near 0, 0 may be
-    /// metres from a local origin. Within a degree of 0, 0 there is only sea, and five degrees are 550 km.
-    bool is_in_degrees() const {
-        constexpr double most_degrees = 5, of_sea = 1;
-        const Bounds b = bounds_of_footprint();
-        const bool at_zero =
-            b.low[0] < of_sea && b.high[0] > -of_sea && b.low[1] < of_sea && b.high[1] > -of_sea;
-        return b.may_be_degrees() && b.longest_side() <= most_degrees && !at_zero &&
-               !emptied_.may_be_degrees();
     }
 
     void note(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
@@ -223,20 +167,16 @@ class CropRun {
         }
         const std::size_t had = cloud ? part.mesh.vertex_count() : faces;
         report_.kept.add(part, had, left, changed);
-        if (had > 0 && left == 0) emptied_.add(bounds_of(part));
+        if (had > 0 && left == 0) emptied_.add(bounds_of(part, settings_.axis));
     }
 
     void warn() {
-        constexpr const char* hint = "check the position and the axis of the footprint, and that it has the "
-                                     "same origin as the mesh; facetmill info prints the bounds";
+        const char* hint = hint_for_missed(bounds_of(footprint_), emptied_);
         const KeptParts& kept = report_.kept;
         if (kept.are_all_emptied())
             context_.warn(
                 "W-CROP-NOTHING",
-                fmt::format("crop: nothing of {} was kept: {}", kept.all_of_them(), where_they_are()),
-                is_in_degrees() ? "the footprint seems to be in degrees: convert it to the coordinates of "
-                                  "the mesh with ogr2ogr -t_srs"
-                                : hint);
+                fmt::format("crop: nothing of {} was kept: {}", kept.all_of_them(), where_they_are()), hint);
         else if (kept.are_all_untouched())
             context_.warn(
                 "W-CROP-ALL",
@@ -250,7 +190,7 @@ class CropRun {
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
-    Bounds emptied_; ///< the bounding box of the parts that were removed completely
+    FlatBounds emptied_; ///< the bounding box of the parts that were removed completely
     CropReport report_;
 };
 
@@ -263,7 +203,7 @@ CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCro
 Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& report) {
     warn_of_bind_pose(scene, context);
     PartsToCrop how;
-    how.settings.axis = axis_of(o, scene);
+    how.settings.axis = axis_of(o.axis, scene.up);
     how.settings.by = o.by;
     how.settings.inside_by = o.inside_by;
     how.settings.keep = o.keep == CropKeep::outside ? polygon::Keep::outside : polygon::Keep::inside;

@@ -137,7 +137,7 @@ struct MeasureStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<MeasureStage>(
     {.name = "measure",
-     .also_called = "volume area mass",
+     .also_called = "area mass",
      .about = help::measure::about,
      .details = help::measure::details,
      .examples = {"measure", "measure: {density: 7.85, path: part.json}",

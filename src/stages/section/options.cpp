@@ -1,7 +1,6 @@
 #include "stages/section/options.hpp"
 
 #include "base/math/portable_math.hpp"
-#include "io/drawing/drawing.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/synonyms.hpp"
 
@@ -24,6 +23,27 @@ void declare_hatch(Declare<HatchOption>& d) {
         "The area to hatch.");
 }
 
+void declare_layout(Declare<SectionOptions>& d) {
+    using Kind = io::DrawingLayout::Kind;
+    d.choice<Kind>(
+         "layout", &SectionOptions::layout,
+         {{"sheets", Kind::sheets, "sections next to each other, filled"},
+          {"contours", Kind::contours,
+           "sections over each other as lines with their heights: a map of a terrain"},
+          {"profile", Kind::profile,
+           "upright sections as lines: the chainage from 0 to the right, the elevation upward"}},
+         "How SVG and DXF arrange the sections. Contours and profiles are lines, so an open surface "
+         "gives no warning.")
+        .also_called("arrange overlay");
+    d.option("scale", &SectionOptions::scale, "The scale of prints: 500 makes an SVG of 1:500.")
+        .also_called("map_scale")
+        .above(0);
+    d.option("exaggeration", &SectionOptions::exaggeration,
+             "The factor that SVG and DXF multiply the elevations of a profile by.")
+        .also_called("vertical_exaggeration z_scale")
+        .above(0);
+}
+
 } // namespace
 
 void declare_section(Declare<SectionOptions>& d) {
@@ -44,19 +64,22 @@ void declare_section(Declare<SectionOptions>& d) {
             "Hatches the sections with parallel lines. Give true, or a map of options.", declare_hatch)
         .option()
         .may_be_true = true;
+    declare_layout(d);
     d.option("path", &SectionOptions::path,
              "The drawing to write, to scale, or a list of drawings. The suffix selects the format: .svg, "
-             ".dxf or .json.")
+             ".dxf, .geojson (lines in world coordinates) or .json.")
         .also_called(path_synonyms);
 }
 
 void verify_section(const SectionOptions& o, const Value& given, Problems& problems) {
     if (o.plane) verify_plane(*o.plane, given.mark, problems);
+    if (given.find("exaggeration") && o.layout != io::DrawingLayout::Kind::profile)
+        add_refusal(needs("exaggeration", "layout: profile"), "section", given, problems);
     for (const auto& path : o.path)
         if (!io::is_drawing(path.text))
             problems.add(mark_at(given, "path"), "E-DRAWING",
                          fmt::format("section: '{}' is not a supported drawing format", path.text),
-                         "use .svg, .dxf or .json");
+                         "use .svg, .dxf, .geojson or .json");
 }
 
 polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context) {

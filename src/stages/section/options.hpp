@@ -2,6 +2,7 @@
 // The options of section.
 
 #include "geometry/section/section.hpp"
+#include "io/drawing/drawing.hpp"
 #include "stage/options/plane.hpp"
 #include "stage/stage.hpp"
 
@@ -18,11 +19,13 @@ struct SectionOptions {
     std::optional<Length> spacing;
     std::optional<std::int64_t> count;
     std::optional<HatchOption> hatch;
+    io::DrawingLayout::Kind layout = io::DrawingLayout::Kind::sheets;
+    double scale = 1, exaggeration = 1;
     std::vector<PathText> path;
 };
 
 void declare_section(Declare<SectionOptions>& d);
-/// Checks planes and names of drawings, which the declaration cannot express.
+/// Checks planes, layouts and names of drawings, which the declaration cannot express.
 void verify_section(const SectionOptions& o, const Value& given, Problems& problems);
 
 /// The hatch lines of a scene; all sections of a stack share them. Throws a stage error (E-HATCH) if the

@@ -10,7 +10,7 @@ namespace facetmill::section_stage {
 
 namespace {
 
-constexpr const char* stack = "there are several planes, or spacing is given";
+constexpr const char* stack = "there are several planes, or spacing is given, and layout is sheets";
 
 void add(SectionReport& report, const Section& s) {
     report.area += s.area;
@@ -19,6 +19,7 @@ void add(SectionReport& report, const Section& s) {
     report.contours += s.contours.size();
     report.inside_out += s.inside_out();
     for (const Contour& c : s.contours) {
+        report.length += c.length;
         report.holes += c.role == ContourRole::hole;
         report.open += c.role == ContourRole::open;
         if (c.role != ContourRole::open) ++report.kinds[static_cast<std::size_t>(c.kind)];
@@ -131,6 +132,11 @@ std::vector<std::string> lines_of(const SectionReport& r) {
     const Unit known = r.drawing->unit;
     const std::string in = known == Unit::unknown ? "" : std::string(" ") + to_string(known);
     std::string what = some(r.contours, "contour", "contours");
+    const bool lines_only = r.drawing->layout.is_of_lines();
+    if (r.empty > 0 && lines_only) what = join_texts({what, fmt::format("{} empty", grouped(r.empty))});
+    if (lines_only)
+        return {fmt::format("{}: length {}{}, {}", some(r.sections.size(), "section", "sections"),
+                            readable(r.length), in, what)};
     const std::string of = join_texts({some(r.holes, "hole", "holes"), some(r.open, "open", "open")});
     if (!of.empty()) what += " (" + of + ")";
     if (r.empty > 0) what = join_texts({what, fmt::format("{} empty", grouped(r.empty))});
@@ -168,6 +174,7 @@ void declare_section_report(DeclareFields<SectionReport>& d) {
     d.object("kinds", self, "Closed contours, counted by kind.", declare_kinds);
     d.field("area", &SectionReport::area, "The area in all planes, with holes subtracted.")
         .unit("square scene units");
+    d.field("length", &SectionReport::length, "The length of all contours.").unit("scene units");
     d.object("frame", first_frame, "The area in the first plane.", io::declare_frame_fields)
         .only_when("the section has a plane");
     d.list("sections", &SectionReport::sections, "The section of each plane.", declare_sheet);
@@ -200,7 +207,7 @@ SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spaci
     }
     report.drawing = std::move(drawing);
     if (spacing > 0) add_volume(report, spacing, volume);
-    warn(report, is_closed, context);
+    if (!report.drawing->layout.is_of_lines()) warn(report, is_closed, context);
     return report;
 }
 

@@ -25,7 +25,7 @@ struct SectionReport {
     std::size_t empty = 0, contours = 0, holes = 0, open = 0;
     std::size_t touched = 0;                         ///< contours that shrank to a point or line
     std::array<std::size_t, polygon::kinds> kinds{}; ///< counts of closed contours by kind
-    double area = 0;
+    double area = 0, length = 0;
     bool oriented = true;
     std::size_t inside_out = 0; ///< clockwise outlines
     std::vector<ReportedSection> sections;
@@ -35,10 +35,10 @@ struct SectionReport {
 void declare_section_report(DeclareFields<SectionReport>& d);
 
 /// The sums over the drawing. For a stack (spacing above 0, world units), also the areas times the spacing,
-/// and the volume of the selected parts for comparison. volume: none if a part is not closed. Warns of
-/// contours that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED), clockwise (W-INSIDE-OUT) or
-/// self-crossing (W-SECTION-CROSSES). is_closed: whether all selected parts are; called if outlines are
-/// clockwise.
+/// and the volume of the selected parts for comparison. volume: none if a part is not closed. Warns, unless
+/// the layout is of lines, of contours that are open (W-OPEN-SECTION), reversed by nesting (W-UNORIENTED),
+/// clockwise (W-INSIDE-OUT) or self-crossing (W-SECTION-CROSSES). is_closed: whether all selected parts are;
+/// called if outlines are clockwise.
 [[nodiscard]] SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, double spacing,
                                       std::optional<double> volume, const std::function<bool()>& is_closed,
                                       Context& context);

@@ -55,11 +55,23 @@ Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, 
     return stack_of(extent(), spacing, o.count);
 }
 
+Vec3 up_of(const Scene& scene) { return scene.up == UpAxis::y ? Vec3{0, 1, 0} : Vec3{0, 0, 1}; }
+
+/// The default is in the middle. Contours start at 0 instead, so that their heights are multiples of the
+/// spacing. Throws a usage error (E-SECTION) for a profile whose plane is not upright.
 Plane plane_for(const SectionOptions& o, const Scene& scene, Context& context) {
+    using Kind = io::DrawingLayout::Kind;
+    if (!o.plane && o.layout == Kind::contours && o.spacing && !o.count) return {up_of(scene), {}, 0};
     PlaneOption middle;
-    middle.normal = Vec3{0, 0, 1};
+    middle.normal = o.layout == Kind::contours ? up_of(scene) : Vec3{0, 0, 1};
     middle.through.kind = PlanePlace::Kind::centre;
-    return resolve_plane(o.plane.value_or(middle), scene, context, "plane");
+    const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
+    if (o.layout == Kind::profile && dot(plane.normal, up_of(scene)) != 0)
+        throw Error(ErrorKind::usage, "E-SECTION", "the plane of a profile is not upright",
+                    scene.up == UpAxis::y
+                        ? "give, for example, plane: x=50%, or a normal without a y component"
+                        : "give, for example, plane: x=50%, or a normal without a z component");
+    return plane;
 }
 
 std::optional<polygon::HatchSettings> hatching_for(const SectionOptions& o, const Scene& scene,
@@ -79,12 +91,20 @@ std::optional<double> volume_of(const Scene& scene, const Context& context) {
     return volume;
 }
 
+struct StackedPlanes {
+    Plane plane;
+    Stack stack;
+};
+
+io::DrawingLayout layout_of(const SectionOptions& o) { return {o.layout, o.scale, o.exaggeration}; }
+
 /// One sheet per plane, with the sections of the selected parts and their hatching. Throws the errors of
 /// section and hatch. Throws a limit error (E-HATCH) if the hatching of a part would need more than five
 /// million lines.
-io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& stack,
+io::Drawing draw_sections(const Scene& scene, const StackedPlanes& planes, const io::DrawingLayout& layout,
                           const std::optional<polygon::HatchSettings>& hatching, Context& context) {
-    io::Drawing drawing{context.name(), scene.unit, {}};
+    const auto& [plane, stack] = planes;
+    io::Drawing drawing{context.name(), scene.unit, {}, scene.up, layout};
     const SectionFrame frame = frame_of(plane);
     for (const double h : stack.heights) {
         drawing.sheets.push_back({h, frame, {}});
@@ -117,12 +137,13 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
     const auto extent = [&] { return extent_of(scene, plane, context); };
     const Stack stack = stack_for(o, scene, extent, context);
     const auto hatching = hatching_for(o, scene, context);
-    const auto drawing =
-        std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
+    const auto drawing = std::make_shared<const io::Drawing>(
+        draw_sections(scene, {plane, stack}, layout_of(o), hatching, context));
     std::optional<double> volume;
-    if (stack.spacing > 0) volume = volume_of(scene, context);
+    const double spacing = layout_of(o).is_of_lines() ? 0 : stack.spacing;
+    if (spacing > 0) volume = volume_of(scene, context);
     report = report_of(
-        drawing, stack.spacing, volume, [&] { return volume || volume_of(scene, context); }, context);
+        drawing, spacing, volume, [&] { return volume || volume_of(scene, context); }, context);
     write_drawings(o, *drawing, context);
     return scene;
 }
@@ -143,14 +164,15 @@ void SectionStage::on_cells(CellFlow& flow, Context& context) const {
     Scene scene = flow.outline();
     Part& part = scene.parts.front();
     part.mesh = cells::faces_at_planes(*flow.partition, {plane, stack.heights, flow.transform}, flow.means);
-    const auto drawing =
-        std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
+    const auto drawing = std::make_shared<const io::Drawing>(
+        draw_sections(scene, {plane, stack}, layout_of(o), hatching, context));
     std::optional<double> volume;
-    if (stack.spacing > 0) volume = cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
+    const double spacing = layout_of(o).is_of_lines() ? 0 : stack.spacing;
+    if (spacing > 0) volume = cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
     const auto is_closed = [&] {
         return volume || cells::inspect_cells(*flow.partition, flow.transform, flow.means).volume;
     };
-    const SectionReport report = report_of(drawing, stack.spacing, volume, is_closed, context);
+    const SectionReport report = report_of(drawing, spacing, volume, is_closed, context);
     context.report(*info->result, &report);
     write_drawings(o, *drawing, context);
 }
@@ -160,10 +182,13 @@ const RegisterStage registered = make_stage<SectionStage>(
      .also_called = "slice contours cross_section",
      .about = help::section::about,
      .details = help::section::details,
-     .examples = {"section: z=50%",
-                  "section: {plane: {normal: [1, 0, 1], through: centre}, path: cut.svg, hatch: 2%}",
-                  "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
-                  "section: {count: 20}"},
+     .examples =
+         {"section: z=50%",
+          "section: {plane: {normal: [1, 0, 1], through: centre}, path: cut.svg, hatch: 2%}",
+          "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
+          "section: {layout: contours, spacing: 1, scale: 1000, path: [map.svg, map.dxf, map.geojson]}",
+          "section: {plane: x=50%, layout: profile, exaggeration: 5, scale: 500, path: profile.svg}",
+          "section: {count: 20}"},
      .tells = true,
      .keeps_scene = true,
      .leaves_points = true},

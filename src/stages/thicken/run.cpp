@@ -134,7 +134,7 @@ struct ThickenStage : StageOf<run> {
 
 const RegisterStage registered = make_stage<ThickenStage>(
     {.name = "thicken",
-     .also_called = "shell hollow offset solidify extrude wireframe",
+     .also_called = "shell hollow offset solidify wireframe",
      .about = help::thicken::about,
      .details = help::thicken::details,
      .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",

@@ -6,8 +6,8 @@ namespace facetmill::help::transform {
 inline constexpr const char* about = R"(Moves, rotates and scales parts. Converts units and the up axis.)";
 
 inline constexpr const char* details =
-    R"(The operations always run in this order: unit and up (for the whole scene), scale, rotate, matrix,
-orient_for, fit, translate, centre, ground.
+    R"(The operations always run in this order: unit and up (for the whole scene), crs, scale, rotate, matrix,
+orient_for, fit, translate, centre, ground, place.
 The order of the options does not matter.
 All operations work in world space.
 They change the nodes of the parts, not the meshes, unless bake is on.
@@ -21,6 +21,15 @@ The ground is at 0 along the up axis, or along +Z if the up axis is unknown.
 The bounding box of the parts covers what viewers draw. Skinned and morphed parts count in their default
 pose, and animated nodes at their largest scale. Hidden parts and lower levels of detail do not count.
 A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.
+With place or crs, the scene becomes geocentric (ECEF, EPSG:4978), in metres, with z as the up axis of its
+numbers.
+Globe viewers such as CesiumJS then show a tileset of it at its place.
+place moves the scene as a whole: its origin comes to the given place, with its y axis along the heading.
+crs converts every vertex from projected coordinates, exactly to less than a millimetre, and turns normals.
+ETRS89 counts as WGS84, from which it differs by less than a metre.
+Heights count from the ellipsoid.
+If they count from the geoid, add its height with geoid.
+Coordinates that cannot be in the system, such as degrees, are refused (E-CRS).
 Cameras, lights, empty nodes and animations of a glTF file move with its parts, if all of its parts move.)";
 
 } // namespace facetmill::help::transform

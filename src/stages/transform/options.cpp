@@ -1,6 +1,7 @@
 #include "stages/transform/options.hpp"
 
 #include "base/math/portable_math.hpp"
+#include "geometry/globe/globe.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
@@ -41,6 +42,44 @@ Transform from_numbers(const std::vector<double>& m) {
     Transform t;
     for (std::size_t i = 0; i < 12; ++i) t.m[i / 4][i % 4] = m[i];
     return t;
+}
+
+void declare_place(Declare<GlobePlace>& d) {
+    d.option("lat", &GlobePlace::lat, "The latitude, positive to the north.")
+        .also_called("latitude")
+        .between(-90, 90)
+        .required();
+    d.option("lon", &GlobePlace::lon, "The longitude, positive to the east.")
+        .also_called("longitude lng long")
+        .between(-360, 360)
+        .required();
+    d.option("height", &GlobePlace::height, "The height above the ellipsoid.")
+        .also_called("altitude alt elevation");
+    d.option("heading", &GlobePlace::heading, "The direction of the scene's y axis, clockwise from north.")
+        .also_called("azimuth yaw bearing");
+}
+
+void declare_globe(Declare<TransformOptions>& d) {
+    d.group("place", &TransformOptions::place,
+            "Puts the origin of the scene at a place on the globe, with x to the east and y to the north.",
+            declare_place)
+        .also_called("georeference geolocation position_on_globe",
+                     "place: {lat: 48.86, lon: 2.29, height: 80m}");
+    d.option(
+         "crs", &TransformOptions::crs,
+         "The coordinate system of the scene, for example EPSG:25832. Converts the coordinates to "
+         "geocentric coordinates. Known are UTM (EPSG:32601 to 32660, 32701 to 32760 and 25828 to 25838) and "
+         "Web Mercator (EPSG:3857).")
+        .also_called("epsg srs from_crs projection");
+    d.choice<TransformOptions::Target>(
+         "to", &TransformOptions::to,
+         {{"ecef", TransformOptions::Target::ecef, "geocentric coordinates on WGS84 (EPSG:4978)"}},
+         "The coordinate system of the result, for crs.")
+        .also_called("to_crs target");
+    d.option(
+         "geoid", &TransformOptions::geoid,
+         "For crs: the height of the geoid above the ellipsoid, which is added to heights above the geoid.")
+        .also_called("undulation");
 }
 
 } // namespace
@@ -95,12 +134,38 @@ void declare_transform(Declare<TransformOptions>& d) {
              "Moves the centre of the parts' bounding box to the origin.");
     d.option("ground", &TransformOptions::ground,
              "Moves the parts so that their lowest point along the up axis is at 0.");
+    declare_globe(d);
     d.option("bake", &TransformOptions::bake,
              "Applies the transform to the vertices and removes it from the parts' nodes. Nodes "
              "with animations, instances, cameras or lights are moved instead.");
 }
 
+namespace {
+
+Refusal excludes(const std::string& option, const std::string& other) {
+    return {option, fmt::format("'{}' cannot be combined with '{}'", option, other), "remove one of them"};
+}
+
+void verify_globe(const TransformOptions& o, const Value& given, Problems& problems) {
+    if (!o.crs.empty() && o.place) add_refusal(excludes("place", "crs"), "transform", given, problems);
+    if (o.crs.empty())
+        for (const char* name : {"to", "geoid"})
+            if (given.find(name)) add_refusal(needs(name, "crs"), "transform", given, problems);
+    const Value* crs = given.find("crs");
+    if (crs && !crs->deferred && !ProjectedSystem::named(o.crs))
+        problems.add(crs->mark, "E-CRS",
+                     fmt::format("transform: '{}' is not a known coordinate system", o.crs),
+                     "give UTM or Web Mercator, such as EPSG:25832, EPSG:32633 or EPSG:3857; convert other "
+                     "coordinates with gdaltransform or PDAL first");
+    for (const char* name : {"unit", "up"})
+        if (given.find(name) && (o.place || !o.crs.empty()))
+            add_refusal(excludes(name, o.place ? "place" : "crs"), "transform", given, problems);
+}
+
+} // namespace
+
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {
+    verify_globe(o, given, problems);
     const auto refuse = [&](const char* name, std::string message, std::string hint = {}) {
         problems.add(mark_at(given, name), "E-TRANSFORM", "transform: " + std::move(message),
                      std::move(hint));

@@ -10,6 +10,12 @@ struct TransformRotation {
     Angle angle;
 };
 
+/// A place on the globe for the scene's origin.
+struct GlobePlace {
+    Angle lat, lon, heading;
+    Length height;
+};
+
 struct TransformOptions {
     /// The fixed point of scale, rotate and fit.
     enum class Pivot { origin, centre };
@@ -24,6 +30,11 @@ struct TransformOptions {
     UpAxis up = UpAxis::unknown;
     Purpose orient_for = Purpose::none;
     Angle overhang_angle = Angle::degrees(45);
+    std::optional<GlobePlace> place;
+    std::string crs;
+    std::optional<Length> geoid;
+    enum class Target { ecef };
+    Target to = Target::ecef;
     bool shrink_only = false, centre = false, ground = false, bake = false;
 };
 

@@ -18,6 +18,14 @@ void declare_orientation(DeclareFields<PrintDirectionResult>& d) {
     d.object("after", &PrintDirectionResult::after, "After the turn.", declare_direction);
 }
 
+void declare_place_on_globe(DeclareFields<ReportedPlace>& d) {
+    d.field("lat", &ReportedPlace::lat, "The latitude.").unit("degrees");
+    d.field("lon", &ReportedPlace::lon, "The longitude.").unit("degrees");
+    d.field("height", &ReportedPlace::height, "The height above the ellipsoid.").unit("metres");
+    d.field("geocentric", &ReportedPlace::geocentric, "The geocentric coordinates (EPSG:4978).")
+        .unit("metres");
+}
+
 } // namespace
 
 void declare_transform_report(DeclareFields<TransformReport>& d) {
@@ -36,6 +44,10 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
     d.object("orientation", &TransformReport::orientation, "The result of orient_for, measured before fit.",
              declare_orientation)
         .only_when("orient_for is printing and the scene has faces");
+    d.object("globe", &TransformReport::globe,
+             "The place on the globe: of the scene's origin for place, of the centre of its box for crs.",
+             declare_place_on_globe)
+        .only_when("place or crs is given");
     d.field("unit", &TransformReport::unit, "The unit of the scene after this stage, or unknown.");
     d.field("up", &TransformReport::up, "The up axis after this stage, or unknown.");
 }

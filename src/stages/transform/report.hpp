@@ -7,12 +7,19 @@
 
 namespace facetmill::transform_stage {
 
+/// The place of the scene on the globe, in degrees.
+struct ReportedPlace {
+    double lat = 0, lon = 0, height = 0;
+    Vec3 geocentric;
+};
+
 struct TransformReport {
     Transform all; ///< the combined transform of the parts
     double unit_factor = 1;
     std::optional<double> fit_factor;
     std::optional<PrintDirectionResult> orientation; ///< in the scene's unit before fit
-    std::string unit, up;                            ///< the unit and up axis of the resulting scene
+    std::optional<ReportedPlace> globe;
+    std::string unit, up; ///< the unit and up axis of the resulting scene
 };
 void declare_transform_report(DeclareFields<TransformReport>& d);
 

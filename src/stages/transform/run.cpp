@@ -1,8 +1,13 @@
+#include "base/math/portable_math.hpp"
+#include "base/text/readable_numbers.hpp"
 #include "cells/process/inspect_cells.hpp"
+#include "geometry/globe/globe.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/read/skinned_pose.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
+#include "parallel/parallel.hpp"
+#include "stage/bind_pose.hpp"
 #include "stages/transform/help.hpp"
 #include "stages/transform/report.hpp"
 
@@ -34,6 +39,40 @@ const char* reason_to_keep_node(const io::PartView& view, bool uneven_thickness)
     return nullptr;
 }
 
+ReportedPlace reported(const Geodetic& place) {
+    constexpr double degrees = 180 / pi;
+    return {place.latitude * degrees, place.longitude * degrees, place.height, geocentric(place)};
+}
+
+/// Refuses coordinates that are not in the system.
+void check_coordinates(const Box& box, const ProjectedSystem& system, const std::string& crs) {
+    const bool degrees = box.min.x >= -180 && box.max.x <= 180 && box.min.y >= -90 && box.max.y <= 90;
+    if (!degrees && system.may_hold(box.min) && system.may_hold(box.max)) return;
+    throw Error(ErrorKind::stage, "E-CRS",
+                fmt::format("transform: the scene reaches from ({}) to ({}), which {} in {}",
+                            readable(box.min, ", "), readable(box.max, ", "),
+                            degrees ? "seems to be in degrees or near its own origin, not" : "is not", crs),
+                degrees ? "convert degrees to UTM first, or use place for a scene near its own origin"
+                        : "check the zone, and that x is the easting and y the northing");
+}
+
+/// Converts the vertices, and turns normals and tangents with the grid.
+void project_mesh(Mesh& mesh, const ProjectedSystem& system, const Vec3& geoid) {
+    std::vector<Vec3> from = mesh.positions;
+    parallel_for(from.size(), [&](std::size_t v) {
+        from[v] += geoid;
+        mesh.positions[v] = system.geocentric(from[v]);
+    });
+    for (Attribute& a : mesh.attributes) {
+        if (a.domain != Domain::wedge || !(a.role == Role::normal || a.role == Role::tangent)) continue;
+        parallel_for(a.size(), [&](std::size_t w) {
+            const Vec3 turned = system.frame_at(from[mesh.vertex_of_wedge(static_cast<Index>(w))])
+                                    .vector({a.value(w, 0), a.value(w, 1), a.value(w, 2)});
+            for (int c = 0; c < 3; ++c) a.set_value(w, c, turned[static_cast<std::size_t>(c)]);
+        });
+    }
+}
+
 class Mover {
   public:
     /// The box of the only part after a transform, for a scene whose mesh is not in memory.
@@ -42,8 +81,17 @@ class Mover {
         : scene_(scene), o_(o), context_(context), box_(std::move(box)) {}
 
     TransformReport run() {
-        const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
-        warn_of_conversion(converted, o_, context_);
+        const bool globe = o_.place || !o_.crs.empty();
+        const io::Conversion converted =
+            io::convert(scene_, {globe ? Unit::m : o_.unit, globe ? UpAxis::z : o_.up});
+        if (o_.crs.empty()) { // a coordinate system states the unit and the axis
+            TransformOptions target = o_;
+            if (globe) target.unit = Unit::m;
+            if (globe) target.up = UpAxis::z;
+            warn_of_conversion(converted, target, context_);
+        }
+        std::optional<ReportedPlace> on_globe;
+        if (!o_.crs.empty()) on_globe = project();
         const Transform spin = spin_of(o_);
         const Vec3 fixed = pivot();
         if (!spin.identity()) move(moved(fixed) * spin * moved(-fixed));
@@ -54,9 +102,11 @@ class Mover {
         if (!o_.translate.empty()) move(moved(translation()));
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if ((o_.ground || orientation) && !box().empty()) move(moved(drop()));
+        if (o_.place) on_globe = put_on_globe();
         if (o_.bake) bake();
         if (keys_kept_) warn_of_kept_keys(context_);
-        return {all_, converted.factor, fit, orientation, to_string(scene_.unit), to_string(scene_.up)};
+        return {
+            all_, converted.factor, fit, orientation, on_globe, to_string(scene_.unit), to_string(scene_.up)};
     }
 
   private:
@@ -146,6 +196,54 @@ class Mover {
         keys_kept_ = !io::move_cameras_and_lights(scene_, moved, t) || keys_kept_;
     }
 
+    ReportedPlace put_on_globe() {
+        const GlobePlace& p = *o_.place;
+        const Geodetic place{p.lat.radians, p.lon.radians,
+                             context_.resolve(p.height, scene_, "place.height")};
+        move(local_frame(place, p.heading.radians));
+        return reported(place);
+    }
+
+    /// Converts every vertex from the coordinate system. Cameras and lights move like the centre.
+    ReportedPlace project() {
+        const auto system = ProjectedSystem::named(o_.crs);
+        if (!system) throw Error(ErrorKind::usage, "E-CRS", "transform: the coordinate system is not known");
+        const Vec3 geoid{0, 0, o_.geoid ? context_.resolve(*o_.geoid, scene_, "geoid") : 0};
+        const Box all = box();
+        if (all.empty()) return {};
+        check_coordinates(all, *system, o_.crs);
+        check_projectable();
+        context_.for_each_part(scene_, [&](Part& part) {
+            apply(part.mesh, part.transform);
+            part.transform = {};
+            project_mesh(part.mesh, *system, geoid);
+        });
+        std::vector<bool> moved_parts;
+        moved_parts.reserve(scene_.parts.size());
+        for (const Part& part : scene_.parts) moved_parts.push_back(context_.selects(part, scene_));
+        const Vec3 centre = all.centre() + geoid;
+        const Transform at_centre = system->frame_at(centre) * moved(-all.centre());
+        keys_kept_ = !io::move_cameras_and_lights(scene_, moved_parts, at_centre) || keys_kept_;
+        all_ = at_centre * all_;
+        return reported(system->geodetic(centre));
+    }
+
+    void check_projectable() const {
+        const auto views = io::part_views(scene_);
+        for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
+            const Part& part = scene_.parts[i];
+            if (!context_.selects(part, scene_)) continue;
+            const char* reason = reason_to_keep_node(views[i], false);
+            if (!reason && has_poses(part)) reason = "is skinned or morphed";
+            if (reason)
+                throw Error(
+                    ErrorKind::stage, "E-CRS",
+                    fmt::format("transform: part '{}' {}, so its vertices cannot be converted one by one",
+                                part.name, reason),
+                    "use place, which moves the scene as a whole");
+        }
+    }
+
     /// Parts whose node has another purpose keep it: an animation would move baked points about another
     /// origin, and instances would be turned and scaled about it.
     void bake() {
@@ -194,6 +292,7 @@ struct TransformStage : StageOf<run> {
     }
     std::optional<std::string> why_not_on_cells() const override {
         if (o.orient_for != TransformOptions::Purpose::none) return "orient_for needs all faces in memory";
+        if (!o.crs.empty()) return "crs converts every vertex, and cells move as a whole";
         if (o.bake) return "bake applies node transforms, and cells have no nodes";
         return {};
     }
@@ -209,6 +308,8 @@ const RegisterStage registered = make_stage<TransformStage>(
                   "transform: {unit: m, up: y, centre: true, ground: true}",
                   "transform: {fit: 120mm, ground: true}",
                   "transform: {orient_for: printing, fit: [200mm, 200mm, 180mm], shrink_only: true}",
+                  "transform: {crs: \"EPSG:25832\", geoid: 47.6m}",
+                  "transform: {centre: true, ground: true, place: {lat: 48.8584, lon: 2.2945, height: 80m}}",
                   "transform: {translate: [0, 0, 2mm]}"},
      .moves = true,
      .lines = LinesPolicy::work,

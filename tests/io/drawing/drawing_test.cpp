@@ -4,6 +4,8 @@
 #include "mesh/shapes.hpp"
 #include "support/failure.hpp"
 
+#include <cmath>
+
 using namespace facetmill;
 using namespace facetmill::io;
 
@@ -79,5 +81,68 @@ TEST_CASE("second moments in the world are those of the points there", "[io]") {
 
 TEST_CASE("other extensions are refused", "[io]") {
     CHECK(test::failure([] { drawing_for("a.pdf", {}); }) ==
-          "usage [E-DRAWING] sections are not written as 'a.pdf' | the formats are .svg, .dxf and .json");
+          "usage [E-DRAWING] sections are not written as 'a.pdf' | the formats are .svg, .dxf, .geojson and "
+          ".json");
+}
+
+namespace {
+
+/// A slope z = 400 + x / 2 over [0, 8] x [0, 8], far from the origin, cut by planes.
+Drawing slope(const Plane& plane, std::vector<double> heights, DrawingLayout layout, UpAxis up = UpAxis::z) {
+    Mesh mesh = shapes::grid(8, 8);
+    for (Vec3& p : mesh.positions) {
+        p = {p.x + 500000, p.y + 5200000, 400 + p.x / 2};
+        if (up == UpAxis::y) p = {p.x, p.z, -p.y};
+    }
+    Drawing drawing{"slope", Unit::m, {}, up, layout};
+    for (auto& s : section(mesh, {plane, heights, {}}))
+        drawing.sheets.push_back({s.height, s.frame, {{"ground", std::move(s), {}}}});
+    return drawing;
+}
+
+} // namespace
+
+TEST_CASE("contours lie over each other, to scale, with their heights", "[io]") {
+    for (const UpAxis up : {UpAxis::z, UpAxis::y}) {
+        const Vec3 normal = up == UpAxis::y ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+        const Drawing drawing =
+            slope({normal, normal * 400, 0}, {1, 2.5, 3}, {DrawingLayout::Kind::contours, 100, 1}, up);
+        const std::string svg = to_svg(drawing), dxf = to_dxf(drawing);
+        // The lines are at x = 2, 5 and 6: 4 m wide and 8 m high, with a margin of 0.4 m.
+        CHECK(holds(svg, "width=\"48mm\" height=\"88mm\" viewBox=\"0 0 4.8 8.8\""));
+        CHECK(holds(svg, "printed at 1:100"));
+        CHECK(holds(
+            svg,
+            "data-height=\"2.5\" data-elevation=\"402.5\" transform=\"translate(0.4 8.4) scale(1 -1)\""));
+        CHECK(holds(svg, ">402.5</text>"));
+        CHECK_FALSE(holds(svg, "class=\"open\""));
+        CHECK(holds(dxf, "CONTOUR_402_5\n"));
+        CHECK(holds(dxf, "10\n500005\n20\n5200008\n30\n402.5\n"));
+        const Json json = Json::parse(to_geojson(drawing));
+        REQUIRE(json["features"].size() == 3);
+        const Json& feature = json["features"][1];
+        CHECK(feature["properties"]["elevation"] == 402.5);
+        CHECK(feature["properties"]["part"] == "ground");
+        CHECK(feature["properties"]["closed"] == false);
+        for (const Json& p : feature["geometry"]["coordinates"]) {
+            CHECK(p[0] == 500005);
+            CHECK(std::abs(p[1].get<double>()) >= 5200000);
+            CHECK(p[2] == 402.5);
+        }
+    }
+}
+
+TEST_CASE("a profile runs from 0, with exaggerated elevations", "[io]") {
+    for (const Vec3 normal : {Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
+        const Drawing drawing = slope({normal, {0, 5200004, 0}, 0}, {0}, {DrawingLayout::Kind::profile, 100, 10});
+        const Paper paper(drawing);
+        CHECK(paper.bounds().min == Vec3{0, 4000, 0});
+        CHECK(paper.bounds().max == Vec3{8, 4040, 0});
+        const std::string svg = to_svg(drawing), dxf = to_dxf(drawing);
+        CHECK(holds(svg, "viewBox=\"0 0 12 44\""));
+        CHECK(holds(svg, ">5</text>"));
+        CHECK(holds(svg, ">402</text>"));
+        CHECK(holds(dxf, "10\n8\n20\n4040\n30\n0\n"));
+        CHECK_FALSE(Json::parse(to_geojson(drawing))["features"][0]["properties"].contains("elevation"));
+    }
 }

@@ -1,4 +1,4 @@
-#include "stages/crop/footprint.hpp"
+#include "stage/options/footprint.hpp"
 
 #include "base/hash.hpp"
 #include "options/lists.hpp"
@@ -116,6 +116,68 @@ Footprint resolve_footprint(const FootprintOption& option, Unit unit, Context& c
         for (auto& ring : file.rings)
             for (Vec2& p : ring) p = p * factor;
     return Footprint(std::move(file.rings));
+}
+
+std::size_t axis_of(ViewAxis axis, UpAxis up) {
+    if (axis == ViewAxis::up) return up == UpAxis::y ? 1 : 2;
+    return axis == ViewAxis::x ? 0 : axis == ViewAxis::y ? 1 : 2;
+}
+
+void FlatBounds::add(double u, double v) {
+    low[0] = std::min(low[0], u);
+    low[1] = std::min(low[1], v);
+    high[0] = std::max(high[0], u);
+    high[1] = std::max(high[1], v);
+}
+
+void FlatBounds::add(const FlatBounds& b) {
+    add(b.low[0], b.low[1]);
+    add(b.high[0], b.high[1]);
+}
+
+std::string FlatBounds::text() const {
+    return fmt::format("({:.10g}, {:.10g}) to ({:.10g}, {:.10g})", low[0], low[1], high[0], high[1]);
+}
+
+bool FlatBounds::may_be_degrees() const {
+    return low[0] >= -180 && high[0] <= 180 && low[1] >= -90 && high[1] <= 90;
+}
+
+FlatBounds bounds_of(const Footprint& footprint) {
+    FlatBounds b;
+    for (const auto& ring : footprint.rings())
+        for (const auto& p : ring) b.add(p.x, p.y);
+    return b;
+}
+
+FlatBounds bounds_of(const Part& part, std::size_t axis) {
+    FlatBounds b;
+    for (const Vec3& local : part.mesh.positions) {
+        const Vec3 p = part.transform.point(local);
+        b.add(p[axis == 0 ? 1 : 0], p[axis == 2 ? 1 : 2]);
+    }
+    return b;
+}
+
+namespace {
+
+/// Whether the footprint seems to be in degrees and the mesh in metres. Coordinates near 0, 0 may be metres
+/// from a local origin. Within a degree of 0, 0 there is only sea, and five degrees are 550 km.
+bool is_in_degrees(const FlatBounds& footprint, const FlatBounds& mesh) {
+    constexpr double most_degrees = 5, of_sea = 1;
+    const FlatBounds& b = footprint;
+    const bool at_zero = b.low[0] < of_sea && b.high[0] > -of_sea && b.low[1] < of_sea && b.high[1] > -of_sea;
+    return b.may_be_degrees() && b.longest_side() <= most_degrees && !at_zero && !mesh.may_be_degrees();
+}
+
+} // namespace
+
+const char* hint_for_missed(const FlatBounds& footprint, const FlatBounds& mesh) {
+    return is_in_degrees(footprint, mesh)
+               ? "the footprint seems to be in degrees: convert it to the coordinates of "
+                 "the mesh with ogr2ogr -t_srs"
+               : "check the position and the axis of the footprint, and that it has the "
+                 "same origin as the mesh; facetmill info prints the bounds";
 }
 
 } // namespace facetmill
