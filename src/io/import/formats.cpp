@@ -5,6 +5,7 @@
 #include "io/images/image_files.hpp"
 #include "io/import/door.hpp"
 #include "io/packing.hpp"
+#include "platform/worker_process.hpp"
 
 #include <fmt/format.h>
 
@@ -143,6 +144,11 @@ void peek(const Input& input, FileHeader& header, const Format& format) {
 
 std::string missing(const Format& format) {
     if (helper_program(format.helper)) return {};
+    if (!has_workers())
+        return fmt::format(
+            "facetmill reads {} files only on Linux: convert the file there, or with the program "
+            "that made it",
+            format.name);
     return fmt::format("install {} beside facetmill to read {} files: build facetmill where {} is installed "
                        "(tools/deps.sh --imports)",
                        format.helper, format.name, is_cad(format) ? "Open CASCADE" : "assimp");
