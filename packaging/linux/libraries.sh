@@ -87,6 +87,10 @@ with_cmake() { # with_cmake PACKAGE [OPTION...]
 with_configure() { # with_configure PACKAGE [OPTION...]: only for windows
     package=$1 && shift
     mkdir -p "$prefix/build/$package/build"
+    # Debian's patches make these files older than their sources, and make would call autoconf for them.
+    for file in aclocal.m4 configure stamp-h.in config.h.in config.in Makefile.in; do
+        find "$source" -name "$file" -exec touch {} +
+    done
     # Assembler and C of the library, without the folder's name.
     (cd "$prefix/build/$package/build" && "$source/configure" --host="$host" --prefix="$prefix" --libdir="$prefix/lib" \
         --enable-static --disable-shared CC="$host-gcc-posix" CXX="$host-g++-posix" CC_FOR_BUILD=gcc \
@@ -183,7 +187,10 @@ if [ -n "$windows" ]; then
             cmake --install "$prefix/build/libzstd/build" >/dev/null
         built libzstd
     fi
-    if fetch nettle nettle-dev; then with_configure nettle --disable-public-key --disable-documentation --disable-openssl; fi
+    if fetch nettle nettle-dev; then
+        sed -i 's/^SUBDIRS = .*/SUBDIRS =/' "$source/Makefile.in" # without its programs
+        with_configure nettle --disable-public-key --disable-documentation --disable-openssl
+    fi
     if fetch gmp libgmp-dev; then
         # Debian's archive lacks the manual, whose folder the build enters.
         mkdir -p "$source/doc"
