@@ -201,10 +201,15 @@ if [ -n "$windows" ]; then
 fi
 
 # The others, as installed; headers count, too, because templates are compiled into the program.
-compiler=$("${CXX:-g++}" -dumpversion | cut -d. -f1)
-for package in libdraco-dev libtinygltf-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev \
-    libexpat1-dev libmpfr-dev libgmp-dev zlib1g-dev libseccomp-dev libcgal-dev libcli11-dev libeigen3-dev nlohmann-json3-dev \
-    "$(dpkg-query -S "$sysroot/usr/include/boost/version.hpp" | cut -d: -f1)" libc6-dev "libstdc++-$compiler-dev"; do
+if [ -n "$windows" ]; then
+    packages="mingw-w64-x86-64-dev g++-mingw-w64-x86-64-posix"
+else
+    compiler=$("${CXX:-g++}" -dumpversion | cut -d. -f1)
+    packages="libdraco-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev
+        libexpat1-dev libmpfr-dev libgmp-dev zlib1g-dev libseccomp-dev libc6-dev libstdc++-$compiler-dev"
+fi
+for package in $packages libtinygltf-dev libcgal-dev libcli11-dev libeigen3-dev nlohmann-json3-dev \
+    "$(dpkg-query -S "$sysroot/usr/include/boost/version.hpp" | cut -d: -f1)"; do
     dpkg-query -W -f '${source:Package} ${source:Version}\n' "$package" 2>/dev/null || true
 done >>"$prefix/sources.txt.new"
 LC_ALL=C sort -u "$prefix/sources.txt.new" >"$prefix/sources.txt"
