@@ -145,10 +145,7 @@ void peek(const Input& input, FileHeader& header, const Format& format) {
 std::string missing(const Format& format) {
     if (helper_program(format.helper)) return {};
     if (!has_workers())
-        return fmt::format(
-            "facetmill reads {} files only on Linux: convert the file there, or with the program "
-            "that made it",
-            format.name);
+        return fmt::format("convert the file on Linux, where facetmill can read {} files", format.name);
     return fmt::format("install {} beside facetmill to read {} files: build facetmill where {} is installed "
                        "(tools/deps.sh --imports)",
                        format.helper, format.name, is_cad(format) ? "Open CASCADE" : "assimp");
