@@ -153,7 +153,7 @@ fi
 
 if [ -n "$windows" ]; then
     # Headers of libraries that need no compiling, without the other headers of this system.
-    for name in CGAL boost CLI eigen3 nlohmann tiny_gltf.h OpenMesh; do ln -sfn "/usr/include/$name" "$prefix/include/$name"; done
+    for name in CGAL boost catch2 CLI eigen3 nlohmann tiny_gltf.h OpenMesh; do ln -sfn "/usr/include/$name" "$prefix/include/$name"; done
     if fetch zlib zlib1g-dev; then
         # Its CMake files also build a DLL, whose resources Debian's archive lacks.
         # shellcheck disable=SC2086  # a list of options
