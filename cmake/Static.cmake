@@ -31,6 +31,7 @@ endforeach()
 add_executable(facetmill_static src/cli/main.cpp ${CMAKE_CURRENT_BINARY_DIR}/generated/linked_sources.cpp ${static_objects})
 if(WIN32)
   windows_executable(facetmill_static)
+  windows_tests(${windows_sources} src/base/hash.cpp src/platform/file_stamp.cpp src/platform/temporary_names.cpp src/platform/whole_bytes.cpp)
   return()
 endif()
 

@@ -51,7 +51,21 @@ function(windows_executable target)
   configure_file(packaging/windows/facetmill.rc.in generated/facetmill.rc @ONLY)
   configure_file(packaging/windows/facetmill.manifest generated/facetmill.manifest COPYONLY)
   target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/generated/facetmill.rc)
+  windows_link(${target})
+endfunction()
+
+function(windows_link target)
   target_link_libraries(${target} PRIVATE facetmill_flags facetmill_dependencies -Wl,--start-group ${windows_libraries} -Wl,--end-group)
   # The wrapped function makes text of paths UTF-8 (src/platform/windows/utf8_paths.cpp).
   target_link_options(${target} PRIVATE -static -Wl,--stack,8388608,--build-id,--no-insert-timestamp,--wrap=mbrtowc)
+endfunction()
+
+# `wine platform_tests.exe` tests the calls of the system without the rest of the program.
+function(windows_tests)
+  set(tests tests/platform/file_names_test.cpp tests/support/main.cpp)
+  set_source_files_properties(${tests} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  add_executable(platform_tests EXCLUDE_FROM_ALL ${tests} ${ARGN})
+  set_target_properties(platform_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  target_include_directories(platform_tests PRIVATE tests src ${CMAKE_CURRENT_BINARY_DIR}/generated)
+  windows_link(platform_tests)
 endfunction()

@@ -29,7 +29,7 @@ METHODS = {
     'thicken 2% --side': 'inward outward centred', 'orient --method': 'outward consistent flip'}
 VARYING = re.compile(r' *\b(\d+ min )?\d[\d.,]* ?(ms|s|µs|min|CPU s|[kMG]B|[KMG]iB)\b')
 FIXED = {'PATH': '/usr/bin:/bin', 'FACETMILL_CACHE': 'off', 'FACETMILL_JOBS': '2', 'LC_ALL': 'C.UTF-8', 'WINEDEBUG': '-all',
-         **{key: os.environ[key] for key in ('WINEPREFIX',) if key in os.environ}}
+         'WINEPREFIX': os.environ.get('WINEPREFIX', f'{pathlib.Path.home()}/.wine')}
 SYSTEMS = {'arm64': ('linux-aarch64', 'qemu-aarch64-static'), 'windows': ('windows-x86_64.exe', 'wine')}
 
 

@@ -50,13 +50,14 @@ fetch() { # fetch SOURCE PACKAGE: unpacks the source of the installed package, a
     # For Windows, no installed library needs the same headers, so the newest version that can be had is taken.
     [ -z "$windows" ] || versions=$(apt-cache showsrc "$1" | sed -n 's/^Version: //p' | sort -rVu)
     for version in $versions; do
-        if grep -qx "$1 $version" "$prefix/sources.txt" 2>/dev/null && [ -e "$prefix/build/$1.built" ]; then
+        if [ "$(cat "$prefix/build/$1.built" 2>/dev/null)" = "$version" ]; then
             echo "$1 $version" >>"$prefix/sources.txt.new"
             return 1
         fi
+        rm -rf "$prefix/build/new" && mkdir "$prefix/build/new"
+        (cd "$prefix/build/new" && apt-get source -qq "$1=$version" >"$prefix/build/$1.log" 2>&1) || continue
         echo "building $1 $version" >&2
-        rm -rf "$prefix/build/$1" "$prefix/build/$1.built" && mkdir -p "$prefix/build/$1"
-        (cd "$prefix/build/$1" && apt-get source -qq "$1=$version" >"$prefix/build/$1.log" 2>&1) || continue
+        rm -rf "$prefix/build/$1" "$prefix/build/$1.built" && mv "$prefix/build/new" "$prefix/build/$1"
         echo "$1 $version" >>"$prefix/sources.txt.new"
         source=$(find "$prefix/build/$1" -mindepth 1 -maxdepth 1 -type d)
         return 0
@@ -64,6 +65,10 @@ fetch() { # fetch SOURCE PACKAGE: unpacks the source of the installed package, a
     tail -3 "$prefix/build/$1.log" >&2
     echo "Debian has no source of $1 $versions any more: apt-get install --only-upgrade $2" >&2
     exit 1
+}
+
+built() { # built SOURCE: an interrupted script goes on after it
+    echo "$version" >"$prefix/build/$1.built"
 }
 
 with_cmake() { # with_cmake PACKAGE [OPTION...]
@@ -82,6 +87,10 @@ with_cmake() { # with_cmake PACKAGE [OPTION...]
 with_configure() { # with_configure PACKAGE [OPTION...]: only for windows
     package=$1 && shift
     mkdir -p "$prefix/build/$package/build"
+    # Debian's patches make these files older than their sources, and make would call autoconf for them.
+    for file in aclocal.m4 configure stamp-h.in config.h.in config.in Makefile.in; do
+        find "$source" -name "$file" -exec touch {} +
+    done
     # Assembler and C of the library, without the folder's name.
     (cd "$prefix/build/$package/build" && "$source/configure" --host="$host" --prefix="$prefix" --libdir="$prefix/lib" \
         --enable-static --disable-shared CC="$host-gcc-posix" CXX="$host-g++-posix" CC_FOR_BUILD=gcc \
@@ -90,24 +99,24 @@ with_configure() { # with_configure PACKAGE [OPTION...]: only for windows
         tail -30 "$prefix/build/$package.log" >&2
         exit 1
     }
-    touch "$prefix/build/$package.built"
+    built "$package"
 }
 
 rm -f "$prefix/sources.txt.new"
 if fetch fmtlib libfmt-dev; then
     with_cmake fmtlib -DFMT_TEST=OFF -DFMT_DOC=OFF && cmake --install "$prefix/build/fmtlib/build" >/dev/null
-    touch "$prefix/build/fmtlib.built"
+    built fmtlib
 fi
 if fetch meshoptimizer libmeshoptimizer-dev; then
     with_cmake meshoptimizer && cmake --install "$prefix/build/meshoptimizer/build" >/dev/null
-    touch "$prefix/build/meshoptimizer.built"
+    built meshoptimizer
 fi
 if fetch onetbb libtbb-dev; then
     # Without the lookups of other libraries at start: a static program has no use for them.
     sed -i '1i #define __TBB_WEAK_SYMBOLS_PRESENT 0' "$source/src/tbb/dynamic_link.cpp"
     with_cmake onetbb -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_EXAMPLES=OFF \
         "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$source=. $exact -U__TBB_USE_ITT_NOTIFY${windows:+ -mwaitpkg}" && cmake --install "$prefix/build/onetbb/build" >/dev/null
-    touch "$prefix/build/onetbb.built"
+    built onetbb
 fi
 if fetch openmesh libopenmesh-dev; then
     # Debian's patch removes the static libraries: its objects are put into archives instead.
@@ -117,7 +126,7 @@ if fetch openmesh libopenmesh-dev; then
         find "$prefix/build/openmesh/build/src/OpenMesh/$part" -name '*.o*' | LC_ALL=C sort |
             xargs "${AR:-ar}" rcsD "$prefix/lib/libOpenMesh$part.a"
     done
-    touch "$prefix/build/openmesh.built"
+    built openmesh
 fi
 if [ -z "$windows" ] && fetch tinygltf libtinygltf-dev; then
     # facetmill decodes images with other libraries, so tinygltf needs none.
@@ -125,60 +134,63 @@ if [ -z "$windows" ] && fetch tinygltf libtinygltf-dev; then
     "${CXX:-g++}" ${sysroot:+"--sysroot=$sysroot"} -O2 -fPIC -std=c++17 $exact -DTINYGLTF_NO_STB_IMAGE -DTINYGLTF_NO_STB_IMAGE_WRITE \
         -c "$source/tiny_gltf.cc" -o "$prefix/build/tinygltf/tiny_gltf.o"
     rm -f "$prefix/lib/libtinygltf.a" && "${AR:-ar}" rcsD "$prefix/lib/libtinygltf.a" "$prefix/build/tinygltf/tiny_gltf.o"
-    touch "$prefix/build/tinygltf.built"
+    built tinygltf
 fi
 
 if [ -n "$sysroot$windows" ]; then
     # Debian compiles these two with fused multiply-add for arm64, so their outputs would differ from x86-64.
     if fetch draco libdraco-dev; then
         with_cmake draco && cmake --install "$prefix/build/draco/build" >/dev/null
-        touch "$prefix/build/draco.built"
+        built draco
     fi
     if fetch libwebp libwebp-dev; then
         # shellcheck disable=SC2046  # a list of options
         with_cmake libwebp $(printf -- '-DWEBP_BUILD_%s=OFF ' ANIM_UTILS CWEBP DWEBP GIF2WEBP IMG2WEBP VWEBP WEBPINFO WEBPMUX EXTRAS) &&
             cmake --install "$prefix/build/libwebp/build" >/dev/null
-        touch "$prefix/build/libwebp.built"
+        built libwebp
     fi
 fi
 
 if [ -n "$windows" ]; then
     # Headers of libraries that need no compiling, without the other headers of this system.
-    for name in CGAL boost CLI eigen3 nlohmann tiny_gltf.h OpenMesh; do ln -sfn "/usr/include/$name" "$prefix/include/$name"; done
+    for name in CGAL boost catch2 CLI eigen3 nlohmann tiny_gltf.h OpenMesh; do ln -sfn "/usr/include/$name" "$prefix/include/$name"; done
     if fetch zlib zlib1g-dev; then
         # Its CMake files also build a DLL, whose resources Debian's archive lacks.
         # shellcheck disable=SC2086  # a list of options
         (cd "$source" && "$host-gcc-posix" -O2 "-ffile-prefix-map=$source=." $exact -c ./*.c && rm -f "$prefix/lib/libz.a" &&
             "$AR" rcsD "$prefix/lib/libz.a" ./*.o && cp zlib.h zconf.h "$prefix/include/")
-        touch "$prefix/build/zlib.built"
+        built zlib
     fi
     if fetch libpng1.6 libpng-dev; then
         with_cmake libpng1.6 -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF && cmake --install "$prefix/build/libpng1.6/build" >/dev/null
-        touch "$prefix/build/libpng1.6.built"
+        built libpng1.6
     fi
     if fetch libjpeg-turbo libjpeg62-turbo-dev; then
         with_cmake libjpeg-turbo "-DCMAKE_INSTALL_LIBDIR=$prefix/lib" -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=OFF && cmake --install "$prefix/build/libjpeg-turbo/build" >/dev/null
-        touch "$prefix/build/libjpeg-turbo.built"
+        built libjpeg-turbo
     fi
     if fetch yaml-cpp libyaml-cpp-dev; then
         with_cmake yaml-cpp -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF -DYAML_BUILD_SHARED_LIBS=OFF &&
             cmake --install "$prefix/build/yaml-cpp/build" >/dev/null
-        touch "$prefix/build/yaml-cpp.built"
+        built yaml-cpp
     fi
     if fetch expat libexpat1-dev; then
         source=$source/expat
         # A patch of Debian needs a value of XML_DTD, which CMake defines without one.
         with_cmake expat -DEXPAT_DTD=OFF "-DCMAKE_C_FLAGS=-ffile-prefix-map=$source=. $exact -DXML_DTD=1" -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_EXAMPLES=OFF &&
             cmake --install "$prefix/build/expat/build" >/dev/null
-        touch "$prefix/build/expat.built"
+        built expat
     fi
     if fetch libzstd libzstd-dev; then
         source=$source/build/cmake
         with_cmake libzstd -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_SHARED=OFF -DZSTD_BUILD_TESTS=OFF &&
             cmake --install "$prefix/build/libzstd/build" >/dev/null
-        touch "$prefix/build/libzstd.built"
+        built libzstd
     fi
-    if fetch nettle nettle-dev; then with_configure nettle --disable-public-key --disable-documentation --disable-openssl; fi
+    if fetch nettle nettle-dev; then
+        sed -i 's/^SUBDIRS = .*/SUBDIRS =/' "$source/Makefile.in" # without its programs
+        with_configure nettle --disable-public-key --disable-documentation --disable-openssl
+    fi
     if fetch gmp libgmp-dev; then
         # Debian's archive lacks the manual, whose folder the build enters.
         mkdir -p "$source/doc"
@@ -189,10 +201,15 @@ if [ -n "$windows" ]; then
 fi
 
 # The others, as installed; headers count, too, because templates are compiled into the program.
-compiler=$("${CXX:-g++}" -dumpversion | cut -d. -f1)
-for package in libdraco-dev libtinygltf-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev \
-    libexpat1-dev libmpfr-dev libgmp-dev zlib1g-dev libseccomp-dev libcgal-dev libcli11-dev libeigen3-dev nlohmann-json3-dev \
-    "$(dpkg-query -S "$sysroot/usr/include/boost/version.hpp" | cut -d: -f1)" libc6-dev "libstdc++-$compiler-dev"; do
+if [ -n "$windows" ]; then
+    packages="mingw-w64-x86-64-dev g++-mingw-w64-x86-64-posix"
+else
+    compiler=$("${CXX:-g++}" -dumpversion | cut -d. -f1)
+    packages="libdraco-dev libyaml-cpp-dev nettle-dev libpng-dev libjpeg-dev libjpeg62-turbo-dev libwebp-dev libzstd-dev
+        libexpat1-dev libmpfr-dev libgmp-dev zlib1g-dev libseccomp-dev libc6-dev libstdc++-$compiler-dev"
+fi
+for package in $packages libtinygltf-dev libcgal-dev libcli11-dev libeigen3-dev nlohmann-json3-dev \
+    "$(dpkg-query -S "$sysroot/usr/include/boost/version.hpp" | cut -d: -f1)"; do
     dpkg-query -W -f '${source:Package} ${source:Version}\n' "$package" 2>/dev/null || true
 done >>"$prefix/sources.txt.new"
 LC_ALL=C sort -u "$prefix/sources.txt.new" >"$prefix/sources.txt"

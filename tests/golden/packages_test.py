@@ -70,4 +70,5 @@ class Packages(Case):
         self.run_ok(review, "nothing", expect=2)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -265,6 +265,7 @@ void limit_import_workers(const std::vector<fs::path>& readable) {
 namespace import {
 
 std::optional<fs::path> helper_program(const std::string& name) {
+    if (!has_workers()) return {}; // nothing could start it
     std::vector<fs::path> folders;
     if (const char* given = std::getenv("FACETMILL_IMPORTERS"); given && *given) {
         folders = {given};

@@ -6,6 +6,7 @@
 #include "io/import/door.hpp"
 #include "io/import/stated_unit.hpp"
 #include "io/packing.hpp"
+#include "platform/worker_process.hpp"
 
 #include <fmt/format.h>
 
@@ -154,6 +155,8 @@ void peek(const Input& input, FileHeader& header, const Format& format) {
 
 std::string missing(const Format& format) {
     if (helper_program(format.helper)) return {};
+    if (!has_workers())
+        return fmt::format("convert the file on Linux, where facetmill can read {} files", format.name);
     return fmt::format("install {} beside facetmill to read {} files: build facetmill where {} is installed "
                        "(tools/deps.sh --imports)",
                        format.helper, format.name, is_cad(format) ? "Open CASCADE" : "assimp");
