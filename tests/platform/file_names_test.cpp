@@ -19,6 +19,8 @@
 using namespace facetmill;
 namespace fs = std::filesystem;
 
+namespace file_names_test {
+
 namespace {
 
 constexpr OpenOptions new_file{.what = OpenFor::writing, .create = Create::always};
@@ -169,3 +171,5 @@ TEST_CASE("Names of devices are reserved on Windows only", "[platform]") {
         CHECK_FALSE(is_reserved_name(name));
     CHECK((comparable_name("ÄB.glb") == comparable_name("äb.GLB")) == on_windows);
 }
+
+} // namespace file_names_test

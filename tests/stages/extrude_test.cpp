@@ -9,6 +9,8 @@ using test::refusal_of;
 using test::run_stage;
 using test::scene_of;
 
+namespace extrude_stage_test {
+
 TEST_CASE("extrude makes a solid and reports its extent", "[stages]") {
     const auto run = run_stage("extrude", "-2", scene_of(shapes::grid(4, 3), Unit::m));
     const Json& part = run.record.result["parts"][0];
@@ -32,3 +34,5 @@ TEST_CASE("extrude names what it refuses", "[stages]") {
     CHECK(refusal_of("extrude", "-1", scene_of(shapes::cube())).find("is closed already") !=
           std::string::npos);
 }
+
+} // namespace extrude_stage_test

@@ -14,6 +14,8 @@ using namespace facetmill;
 using namespace facetmill::test;
 using textures_stage::AtlasTile;
 
+namespace textures_atlas_test {
+
 namespace {
 
 /// An image whose texels all differ.
@@ -308,3 +310,5 @@ TEST_CASE("textures: tiles of an atlas are apart, within the limit, and multiple
     }
     CHECK(!textures_stage::lay_out(std::vector<AtlasTile>(100), 64, 8)); // plain colours cannot shrink
 }
+
+} // namespace textures_atlas_test

@@ -10,6 +10,8 @@ using test::refusal_of;
 using test::run_stage;
 using test::scene_of;
 
+namespace volume_stage_test {
+
 namespace {
 
 Mesh plate(double z) {
@@ -84,3 +86,5 @@ TEST_CASE("volume refuses what it cannot compare", "[stages]") {
     CHECK(refusal_of("volume", "{with: \"" + file + "\"}", scene_of(plate(0))).find("closed solid") !=
           std::string::npos);
 }
+
+} // namespace volume_stage_test

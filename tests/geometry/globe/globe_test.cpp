@@ -7,6 +7,8 @@
 
 using namespace facetmill;
 
+namespace globe_test {
+
 namespace {
 
 Geodetic degrees(double latitude, double longitude, double height) {
@@ -76,3 +78,5 @@ TEST_CASE("the frame at a projected point follows the grid", "[geometry]") {
     CHECK_FALSE(system->may_hold({-2e6, 46.9, 0}));
     CHECK_FALSE(system->may_hold({NAN, 0, 0}));
 }
+
+} // namespace globe_test

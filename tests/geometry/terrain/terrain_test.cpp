@@ -9,6 +9,8 @@
 
 using namespace facetmill;
 
+namespace terrain_test {
+
 namespace {
 
 using Height = std::function<double(double, double)>;
@@ -231,3 +233,5 @@ TEST_CASE("terrains can be seen along any axis, by any number of threads", "[geo
     CHECK(between(ground, {.level = 1}).below.volume == along_z.below.volume);
     set_threads(0);
 }
+
+} // namespace terrain_test

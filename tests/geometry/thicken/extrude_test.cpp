@@ -9,6 +9,8 @@
 
 using namespace facetmill;
 
+namespace extrude_surface_test {
+
 namespace {
 
 /// A slope z = x over [0, 4] x [0, 3].
@@ -134,3 +136,5 @@ TEST_CASE("extrude refuses surfaces without a straight solid", "[geometry]") {
     std::swap(mixed.corners[0], mixed.corners[1]);
     CHECK(extrude(mixed, {.level = -1}).refused == NoSolid::mixed);
 }
+
+} // namespace extrude_surface_test
