@@ -8,6 +8,8 @@
 
 using namespace facetmill;
 
+namespace gap_test {
+
 namespace {
 
 Mesh box(const Vec3& low, const Vec3& high) {
@@ -130,3 +132,5 @@ TEST_CASE("detail is the width of the narrowest rib or groove", "[geometry][bed]
     CHECK(detail_of(comb(0.75, 0.25)) == Approx(0.25));
     CHECK(detail_of(box({0, 0, 0}, {5, 4, 1})) == Approx(1)); // no groove: the wall
 }
+
+} // namespace gap_test

@@ -11,6 +11,8 @@
 
 using namespace facetmill;
 
+namespace wall_thickness_test {
+
 namespace {
 
 /// The solid of that height over an anticlockwise outline; its ends are polygons.
@@ -100,3 +102,5 @@ TEST_CASE("the least wall thickness is the least of all faces", "[geometry]") {
     }
     CHECK_FALSE(measure(shapes::grid(3, 3), property));
 }
+
+} // namespace wall_thickness_test

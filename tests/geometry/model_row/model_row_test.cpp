@@ -8,6 +8,8 @@
 
 using namespace facetmill;
 
+namespace model_row_test {
+
 namespace {
 
 Scene scene_of(Mesh mesh, UpAxis up = UpAxis::z) {
@@ -97,3 +99,5 @@ TEST_CASE("the row of a part follows its transform and counts one part", "[model
     CHECK(value(one, "parts") == 1);
     CHECK(value(both, "volume").value() == Approx(2 * value(one, "volume").value()));
 }
+
+} // namespace model_row_test
