@@ -5,6 +5,7 @@
 #include "base/math/portable_math.hpp"
 #include "io/gltf/document/accessor.hpp"
 #include "io/gltf/numbers/quantise.hpp"
+#include "io/images/png.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
