@@ -76,11 +76,15 @@ TEST_CASE("a bound holds or says what was expected and found", "[stage]") {
 
 TEST_CASE("a hint is for the way that it helps", "[stage]") {
     Properties p;
+    p.faces = 1;
     p.requested = {{property_named("min_angle"), 12}};
     CHECK_FALSE(judged_limits(entry("min_angle", entry("min", Value::scalar("20"))), p).hint.empty());
     const auto too_large = judged_limits(entry("min_angle", entry("max", Value::scalar("5"))), p);
     CHECK_FALSE(too_large.passed);
     CHECK(too_large.hint.empty());
+    p.faces = 0;
+    const auto nothing = judged_limits(entry("min_angle", entry("max", Value::scalar("5"))), p);
+    CHECK(nothing.hint.starts_with("no faces are left"));
 }
 
 TEST_CASE("a property that does not apply never holds", "[stage]") {

@@ -330,7 +330,7 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
           "E-CONFLICT write: 'feature_angle' needs normals: smooth | add normals: smooth");
     CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
               .starts_with("E-CONFLICT write: 'normals' works with 3d-tiles, drc, glb, gltf, obj, off, ply, "
-                           "not with stl"));
+                           "usdz, not with stl"));
 }
 
 TEST_CASE("write refuses what it cannot mean", "[stages]") {

@@ -312,9 +312,11 @@ Mesh extract(const Mesh& mesh, const Shares& vertices, const Shares& wedges, con
              Index object) {
     Mesh own;
     for (const Index v : vertices.of(object)) own.positions.push_back(mesh.positions[v]);
-    if (wedges.of(object).size() != vertices.of(object).size())
+    if (mesh.has_seams()) {
         for (const Index w : wedges.of(object))
             own.wedge_vertex.push_back(vertices.place[mesh.vertex_of_wedge(w)]);
+        normalise_wedges(own);
+    }
     if (!mesh.all_triangles()) own.face_offsets.push_back(0);
     for (const Index f : faces.of(object)) {
         for (const Index w : mesh.face_wedges(f)) own.corners.push_back(wedges.place[w]);
