@@ -254,7 +254,7 @@ std::size_t copy_shared(Mesh& mesh, const std::vector<Index>& object_of_face) {
             if (w == mesh.wedge_vertex.size()) mesh.wedge_vertex.push_back(v);
             mesh.wedge_vertex[w] = v;
         }
-    if (wedges.copies() == 0) return 0;
+    if (vertices.copies() == 0) return 0; // a shared wedge has a shared vertex
     for (Attribute& a : mesh.attributes)
         if (a.domain != Domain::face)
             a = selected(a, a.domain == Domain::wedge ? wedges.source() : vertices.source());

@@ -139,6 +139,20 @@ TEST_CASE("objects that share vertices are parts with copies of them", "[io][obj
     }
 }
 
+TEST_CASE("objects share vertices, but no texture points", "[io][obj]") {
+    const Loaded two(
+        points + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 2 1\nvt 1 2\no a\nf 1/1 2/2 3/3\no b\nf 1/4 2/5 3/6\n");
+    REQUIRE(two.scene.parts.size() == 2);
+    const Mesh& b = two.scene.parts[1].mesh;
+    REQUIRE(b.vertex_count() == 3);
+    const Attribute* uv = b.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    for (Index c = 0; c < 3; ++c) {
+        CHECK(b.positions[b.vertex(c)] == two.scene.parts[0].mesh.positions[c]);
+        CHECK(uv->value(b.corners[c], 0) == (c == 1 ? 2 : 1));
+    }
+}
+
 TEST_CASE("a vertex without faces is of the group that it stands in", "[io][obj]") {
     const Loaded two(
         "g a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\ng b\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 5 6 7\n");
