@@ -306,10 +306,10 @@ Contours contours_of_footprint(const Footprint& footprint) {
 /// The volumes of a solid whose faces may look inward.
 void set_solid_volumes(VolumeResult& r, const VolumeSums& sums) {
     r.above.volume = sums.above.volume;
-    r.below.volume = -sums.below.volume;
+    r.below.volume = 0.0 - sums.below.volume; // not -0
     if (r.above.volume + r.below.volume < 0) {
-        r.above.volume = -r.above.volume;
-        r.below.volume = -r.below.volume;
+        r.above.volume = 0.0 - r.above.volume;
+        r.below.volume = 0.0 - r.below.volume;
     }
     r.above.deepest = sums.above.deepest;
     r.below.deepest = sums.below.deepest;

@@ -16,7 +16,7 @@ constexpr std::size_t most_places = 20000; ///< searched for all widths together
 
 /// Sets the texels that faces use, in multiples of the gutter, so that maps of half the size fit too.
 void fit_texels(AtlasTile& tile, std::size_t gutter) {
-    if (tile.image_width == 0) {
+    if (tile.image_width == 0 || tile.extent.low[0] > tile.extent.high[0]) { // no texture, or no faces
         tile.left = tile.top = 0;
         tile.width = tile.height = gutter;
         return;
