@@ -25,8 +25,8 @@ class WorkerPool {
     /// Calls the function with the socket of each worker. No worker may be on loan.
     void for_each(const std::function<void(const Descriptor& socket)>& call);
 
-    /// For a worker, after its answer: waits for the byte that ends the order. The byte may have come
-    /// earlier, and the order was given up then. False if the client has ended.
+    /// For a worker, after its answer: waits for the byte that ends the order. If it came
+    /// before the answer, the order was cancelled. False if the client has ended.
     [[nodiscard]] static bool order_ends(const Descriptor& socket);
 
     /// A borrowed worker for one order; waits for a free one. It returns to the pool unless it is dropped.

@@ -142,8 +142,8 @@ bool hint_fits(const Property& property, const Bound& bound, const Properties& p
                                         : !(bound.min && *value < *bound.min);
 }
 
-/// True for a point cloud or nothing, and a property that only faces or lines have, or a number of points: no
-/// stage can help.
+/// True if the scene is empty or has only points, and the property needs faces or lines, or counts points. No
+/// stage can help then.
 bool lacks_faces(const Property& property, const Properties& properties) {
     return properties.faces == 0 && properties.lines == 0 && !property.of_scene() &&
            property.kind != PropertyKind::box && (property.of_faces || !property.measure);
@@ -179,8 +179,7 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         else if (!check.passed && lacks_faces(property, properties))
             check.hint = properties.vertices > 0
                              ? "the scene has points but no faces, and most checks and stages need faces"
-                             : "no faces are left; -v shows which stage removed the last ones, for example "
-                               "faces without area";
+                             : "no faces are left; run with -v to see which stage removed the last faces";
         else if (!check.passed && hint_fits(property, assertion.bound, properties))
             check.hint = property.hint;
         check.where = assertion.where;

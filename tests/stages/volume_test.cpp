@@ -50,7 +50,7 @@ TEST_CASE("volume compares with another file inside a footprint", "[stages]") {
     CHECK(r["missing_in_other"].get<double>() == Approx(1));
     CHECK(run.warnings() == std::vector<std::string>{"W-VOLUME-MISSING", "W-VOLUME-MISSING"});
     CHECK(run.record.warnings[0].message ==
-          "volume: 1 of the footprint (25 %) have no surface in the scene and are not compared");
+          "volume: 1 of the footprint (25 %) has no surface in the scene and is not compared");
     CHECK(run.state->record.inputs.size() == 1);
 }
 

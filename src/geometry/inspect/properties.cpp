@@ -477,8 +477,8 @@ constexpr Property table[] = {
      .locations = uvs_out_of_range,
      .counts_locations = true},
     {.name = "uv_overlaps",
-     .help = "Pairs of faces with the same material that overlap in the first set of texture coordinates, by "
-             "more than the rounding to 32 bits (2^-22 of the texture).",
+     .help = "Pairs of faces with the same material that overlap in the first set of texture coordinates. "
+             "Overlaps within the rounding to 32 bits (2^-22 of the texture) do not count.",
      .hint = makes_uvs,
      .mend = "unwrap",
      .measure =

@@ -170,8 +170,8 @@ WorkerPool& workers() {
                 file_mark(input.name()));
 }
 
-/// The bytes that a helper may allocate: half of the memory that is there. A limit of the run counts this
-/// process and the helper together.
+/// The bytes that a helper may allocate: half of the available memory. The memory limit of a run
+/// applies to this process and the helper together.
 std::uint64_t memory_allowed() {
     constexpr std::uint64_t usual_least = std::uint64_t{1} << 30;
     constexpr std::uint64_t to_start = std::uint64_t{256}

@@ -19,7 +19,8 @@ const RegisterMessages obj_messages{
      "Put the library in the folder of the OBJ file, or allow a common folder with `--asset-root DIR`. The "
      "message names the statements that are lost."},
     {"W-OBJECTS",
-     "Objects in an OBJ file share vertices. Each object becomes a part with its own copies of them.",
+     "Objects in an OBJ file share vertices. Each object becomes a part with its own copies of these "
+     "vertices.",
      "Use `merge` to make one connected surface of the parts."},
 };
 

@@ -219,7 +219,7 @@ void add_groups(Mesh& mesh, const Statements& s, bool numbered, const std::strin
     mesh.attributes.push_back(numbers("smoothing_group", std::move(of_face)));
 }
 
-/// Vertices, or wedges: each is of the first object that uses it, and the others get copies at the end.
+/// Assigns each vertex (or wedge) to the first object that uses it. Copies for other objects are appended.
 class Owned {
   public:
     explicit Owned(std::size_t count) : owner_(count, none), source_(count) {
@@ -232,7 +232,7 @@ class Owned {
         if (fresh) source_.push_back(element);
         return at->second;
     }
-    /// Of each element and copy, the element.
+    /// [elements and copies] The original element.
     const std::vector<Index>& source() const { return source_; }
     std::size_t copies() const { return copies_.size(); }
 
@@ -377,8 +377,8 @@ Division divide(Mesh& mesh, const Statements& s, const std::string& file, ReadLo
         d.names = naming(s, d.kind, "");
     } else if (const std::size_t copies = copy_shared(mesh, d.names.of_face); copies > 0) {
         log.warnings.push_back({Severity::note, "W-OBJECTS",
-                                fmt::format("objects share vertices: {} are copied so that each object is a "
-                                            "part, and merge joins the parts again",
+                                fmt::format("objects share vertices, so {} were copied to make each object a "
+                                            "part; merge joins the parts again",
                                             copies),
                                 file_mark(file), ""});
     }

@@ -12,7 +12,7 @@ const RegisterMessages tileset_messages{
      "A tileset has projected coordinates, such as UTM. Globe viewers read the root's transform as "
      "geocentric coordinates (ECEF), so they show the tiles far from their position.",
      "Use `transform: {crs: \"EPSG:25832\"}` before `write`, with the coordinate system of the mesh. Or use "
-     "`transform: {centre: true}`, and `place` for its latitude and longitude."},
+     "`transform: {centre: true}`, and give the latitude and longitude with `place`."},
 };
 
 } // namespace facetmill

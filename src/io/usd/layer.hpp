@@ -9,8 +9,8 @@
 
 namespace facetmill::io::usd {
 
-/// An identifier like the name: ASCII letters, digits and underscores, no digit in front. An empty name
-/// becomes `otherwise`.
+/// Turns a name into an identifier of ASCII letters, digits and underscores that does not start with a digit.
+/// An empty name becomes `otherwise`.
 [[nodiscard]] std::string identifier(std::string_view name, std::string_view otherwise);
 
 /// The numbers as "(1, 2, 3)", with the shortest digits of float32.
@@ -29,8 +29,8 @@ class Layer {
     /// depth: the number of prims around its text.
     explicit Layer(std::size_t depth) : names_(1), depth_(depth) {}
 
-    /// Begins a prim, for example "def Xform", and returns its name, which is unique below its parent. The
-    /// original name is kept beside an identifier that differs. metadata: further lines for the prim.
+    /// Begins a prim, for example "def Xform", and returns its name, which is unique below its parent. If
+    /// they differ, customData keeps the wanted name. metadata: further lines for the prim.
     std::string open(std::string_view type, std::string_view wanted, std::string_view otherwise,
                      std::vector<std::string> metadata = {});
     void close();

@@ -332,7 +332,7 @@ std::string Materials::add_image(std::size_t image) {
             throw Error(ErrorKind::stage, "E-USDZ",
                         fmt::format("USDZ holds PNG and JPEG: the image '{}' is {}, and cannot be converted",
                                     shown, type.empty() ? "of no known kind" : type),
-                        "give the model with textures as PNG or JPEG, or write .glb");
+                        "convert the textures to PNG or JPEG, or write .glb");
         bytes = encoded_png(*pixels);
         type = "image/png";
     } else if (const std::string fault = image_fault(bytes); !fault.empty()) {

@@ -15,7 +15,7 @@ namespace facetmill::io::usd {
 namespace {
 
 /// The scene whose meshes are written anew, as plain triangles. Skinned and instanced parts get ordinary
-/// nodes, because their nodes in the document do not tell where they are.
+/// nodes, because their document nodes do not give their positions.
 Scene plain_scene(Scene scene) {
     std::vector<PartView> views(scene.parts.size());
     try {

@@ -66,7 +66,7 @@ struct FlatBounds {
 /// The bounds of a part in the world, seen along the axis.
 [[nodiscard]] FlatBounds bounds_of(const Part& part, std::size_t axis);
 
-/// The way out if a footprint and a mesh miss each other: conversion if the footprint seems to be in degrees.
+/// The hint if a footprint and a mesh do not overlap. If the footprint seems to be in degrees: convert it.
 [[nodiscard]] const char* hint_for_missed(const FlatBounds& footprint, const FlatBounds& mesh);
 
 } // namespace facetmill

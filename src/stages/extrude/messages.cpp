@@ -4,9 +4,8 @@ namespace facetmill {
 
 const RegisterMessages extrude_messages{
     {"E-EXTRUDE",
-     "`extrude` cannot make a solid: the surface overhangs, is closed or edge-on, looks both ways, or "
-     "reaches "
-     "both above and below the level.",
+     "`extrude` cannot make a solid. The surface overhangs, is closed or edge-on, crosses the level, or some "
+     "faces look up and others down.",
      "Give a level below or above the whole surface. Use `thicken` for surfaces that overhang.",
      {ErrorKind::stage, ErrorKind::usage}},
 };

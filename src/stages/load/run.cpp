@@ -133,7 +133,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
             context.warn(
                 "W-IMPORT",
                 fmt::format("'{}' has no effect, because '{}' has no solids", option, path.generic_string()),
-                "leave it out; simplify: {deviation: ...} reduces meshes");
+                "remove it; simplify: {deviation: ...} reduces meshes");
     if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
     const bool first = scene.parts.empty(), had_unit = scene.unit != Unit::unknown;
     const io::Conversion done = io::add_scene(scene, std::move(more));

@@ -37,15 +37,15 @@ If the mesh is inside out, outlines run clockwise and have negative areas (W-INS
 Drawings are SVG, DXF (one layer per section), GeoJSON (lines in world coordinates) and JSON (all points and
 measures).
 With layout: sheets, an SVG shows the sections next to each other.
-With layout: contours, they lie over each other as in a map, with their heights as labels and as names of
-the layers.
+With layout: contours, the sections lie over each other as in a map.
+Their heights become labels and layer names.
 Without a plane, the heights are multiples of the spacing.
 With layout: profile, the chainage starts at 0 and runs toward +x or +y, whichever is nearer.
 Elevations are absolute.
-Lines have no inside, so an open terrain is normal, and holes and areas do not matter.
-A GeoJSON has a feature for each line with its part, its height above the first plane, and its elevation if
-the plane is level.
-If y is up, a map shows x and -z, and a GeoJSON has x and z, as for crop.
+Both of these layouts draw lines without an inside, so an open terrain gives no warning.
+A GeoJSON file has one feature per line.
+Its properties are the part, the height above the first plane, and the elevation if the plane is level.
+If y is up, maps show x and -z, and GeoJSON files store x and z, as for crop.
 The scene passes on unchanged.
 
 Sources: P. Bourke, 'Polygon types' (1993), 'Determining whether or not a polygon (2D) has its

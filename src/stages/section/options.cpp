@@ -28,18 +28,17 @@ void declare_layout(Declare<SectionOptions>& d) {
     d.choice<Kind>(
          "layout", &SectionOptions::layout,
          {{"sheets", Kind::sheets, "sections next to each other, filled"},
-          {"contours", Kind::contours,
-           "sections over each other as lines with their heights: a map of a terrain"},
+          {"contours", Kind::contours, "lines over each other, labelled with their heights, as in a map"},
           {"profile", Kind::profile,
-           "upright sections as lines: the chainage from 0 to the right, the elevation upward"}},
+           "lines of vertical sections: chainage from 0 to the right, elevation upward"}},
          "How SVG and DXF arrange the sections. Contours and profiles are lines, so an open surface "
          "gives no warning.")
         .also_called("arrange overlay");
-    d.option("scale", &SectionOptions::scale, "The scale of prints: 500 makes an SVG of 1:500.")
+    d.option("scale", &SectionOptions::scale, "The print scale: 500 makes an SVG at 1:500.")
         .also_called("map_scale")
         .above(0);
     d.option("exaggeration", &SectionOptions::exaggeration,
-             "The factor that SVG and DXF multiply the elevations of a profile by.")
+             "The vertical exaggeration of profiles in SVG and DXF: 5 draws heights five times as large.")
         .also_called("vertical_exaggeration z_scale")
         .above(0);
 }

@@ -10,7 +10,7 @@ namespace facetmill::section_stage {
 
 namespace {
 
-constexpr const char* stack = "there are several planes, or spacing is given, and layout is sheets";
+constexpr const char* stack = "layout is sheets, and there are several planes or spacing is given";
 
 void add(SectionReport& report, const Section& s) {
     report.area += s.area;

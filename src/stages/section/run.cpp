@@ -67,7 +67,7 @@ Plane plane_for(const SectionOptions& o, const Scene& scene, Context& context) {
     middle.through.kind = PlanePlace::Kind::centre;
     const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
     if (o.layout == Kind::profile && dot(plane.normal, up_of(scene)) != 0)
-        throw Error(ErrorKind::usage, "E-SECTION", "the plane of a profile is not upright",
+        throw Error(ErrorKind::usage, "E-SECTION", "the plane of a profile is not vertical",
                     scene.up == UpAxis::y
                         ? "give, for example, plane: x=50%, or a normal without a y component"
                         : "give, for example, plane: x=50%, or a normal without a z component");

@@ -456,11 +456,11 @@ void declare_counts(DeclareFields<AtlasCounts>& d) {
 void declare_made(DeclareFields<MadeAtlas>& d) {
     d.field("material", &MadeAtlas::material, "The name of the new material.");
     d.field("materials", &MadeAtlas::materials, "The materials that it replaces.");
-    d.field("halved", &MadeAtlas::halved, "Those whose textures were halved to fit into max_size.");
+    d.field("halved", &MadeAtlas::halved, "The materials whose textures were halved to fit into max_size.");
     d.field("width", &MadeAtlas::width, "The width of the atlas.").unit("pixels");
     d.field("height", &MadeAtlas::height, "The height of the atlas.").unit("pixels");
-    d.field("used", &MadeAtlas::used, "The share of its pixels that textures cover.");
-    d.list("images", &MadeAtlas::images, "Its images, before any change of the format.",
+    d.field("used", &MadeAtlas::used, "The share of the atlas that textures cover.");
+    d.list("images", &MadeAtlas::images, "The images of the atlas, before conversion to another format.",
            [](DeclareFields<AtlasImage>& i) {
                i.field("texture", &AtlasImage::texture, "The texture of the material.");
                i.field("width", &AtlasImage::width, "The width of the image.").unit("pixels");
@@ -475,22 +475,23 @@ AtlasesReport make_atlases(Scene& scene, const TexturesOptions& o, Context& cont
     AtlasesReport report = AtlasMaker(scene, o, context).make();
     for (const MadeAtlas& made : report.atlases)
         if (!made.halved.empty())
-            context.warn("W-TEXTURE-ATLAS",
-                         fmt::format("textures: to fit into the atlas, the textures of some materials became "
-                                     "smaller: {}",
-                                     fmt::join(made.halved, ", ")),
-                         "use a larger max_size, up to 16384");
+            context.warn(
+                "W-TEXTURE-ATLAS",
+                fmt::format("textures: the textures of these materials were halved to fit into the atlas: {}",
+                            fmt::join(made.halved, ", ")),
+                "use a larger max_size, up to 16384");
     return report;
 }
 
 void declare_atlases(DeclareFields<AtlasesReport>& d) {
     d.list("made", &AtlasesReport::atlases, "Each new material.", declare_made);
-    d.list("apart", &AtlasesReport::apart, "Each material that stays.", [](DeclareFields<ApartMaterial>& a) {
-        a.field("material", &ApartMaterial::material, "Its name, or its number in the scene.");
-        a.field("reason", &ApartMaterial::reason, "Why it was not merged.");
-    });
-    d.object("before", &AtlasesReport::before, "The scene before.", declare_counts);
-    d.object("after", &AtlasesReport::after, "The scene after, before any change of the format.",
+    d.list("apart", &AtlasesReport::apart, "Each material that was not merged.",
+           [](DeclareFields<ApartMaterial>& a) {
+               a.field("material", &ApartMaterial::material, "Its name, or its number in the scene.");
+               a.field("reason", &ApartMaterial::reason, "Why it was not merged.");
+           });
+    d.object("before", &AtlasesReport::before, "The scene before merging.", declare_counts);
+    d.object("after", &AtlasesReport::after, "The scene after merging, before images are converted.",
              declare_counts);
 }
 
@@ -501,7 +502,8 @@ std::vector<std::string> lines_of(const AtlasesReport& r) {
         lines.push_back(fmt::format("{}: {} materials in {} x {} pixels, {:.0f} % used", made.material,
                                     made.materials.size(), made.width, made.height, 100 * made.used));
     for (const ApartMaterial& apart : r.apart)
-        if (lines.size() < most) lines.push_back(fmt::format("{} stays: {}", apart.material, apart.reason));
+        if (lines.size() < most)
+            lines.push_back(fmt::format("{} is not merged: {}", apart.material, apart.reason));
     if (r.atlases.size() + r.apart.size() > most) lines.push_back("more are listed in the report");
     lines.push_back(fmt::format("{} -> {} draw calls, {} -> {} materials, {} -> {} images",
                                 r.before.draw_calls, r.after.draw_calls, r.before.materials,

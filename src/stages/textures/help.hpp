@@ -4,7 +4,7 @@
 namespace facetmill::help::textures {
 
 inline constexpr const char* about =
-    R"(Makes images of materials smaller, as PNG, JPEG, WebP, AVIF or KTX2, or merges them in atlases.)";
+    R"(Shrinks textures, converts them to PNG, JPEG, WebP, AVIF or KTX2, or merges them into atlases.)";
 
 inline constexpr const char* details =
     R"(Images are scaled down to max_size and power_of_two, never up, with Lanczos's filter.
@@ -45,20 +45,22 @@ The extension becomes required, because there is no second image for readers wit
 An image that is already the fallback for such readers is scaled, but does not become WebP or AVIF.
 With the common key `only`, images that unselected parts also use stay unchanged.
 
-With atlas, materials with the same kinds of textures, alpha mode, sides, filter and extensions
-become one material.
-Plain materials of that kind become small patches.
+With atlas, materials merge if they have the same kinds of textures, alpha mode, sides, filter and
+extensions.
+Matching materials without textures become small patches.
 Use optimize afterwards: it joins parts with the same material, which saves draw calls.
-Only the used part of each texture is in the atlas, with a gutter that continues the texture.
-Texels keep their values, unless the texture is scaled, or factors of the materials differ.
-Factors are multiplied into the texels, in linear light.
-Maps with fewer pixels stay smaller, and maps of plain values shrink to a few pixels.
+The atlas holds only the used part of each texture, in a gutter that continues the texture.
+Texels keep their values, unless the texture is scaled or the factors of the materials differ.
+Different factors are multiplied into the texels, in linear light.
+Maps with fewer pixels than others stay smaller, and constant maps shrink to a few pixels.
 Repeated and mirrored textures are unrolled, and texture transforms are applied.
-A larger atlas than max_size gets smaller textures, first those with most texels per area.
-If all textures of a map are JPEG or WebP, so is the atlas, encoded again with quality.
+If the atlas would be larger than max_size, textures are halved, the one with the most texels per area first.
+If all textures of a map are JPEG, or all are WebP, the atlas has that format too.
+It is encoded again with quality.
 Occlusion, roughness and metalness share an image.
-The report names each material that stays, and why: more repeats than unroll, textures with
-different coordinates, animated materials, textures of extensions and variants.
+The report lists each material that was not merged, with the reason.
+Reasons are more repeats than unroll, different texture coordinates, animation, variants and textures of
+extensions.
 
 Source: K. Turkowski, 'Filters for Common Resampling Tasks' (1990).)";
 

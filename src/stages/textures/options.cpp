@@ -87,15 +87,14 @@ void declare_textures(Declare<TexturesOptions>& d) {
              "Repacks PNG and JPEG images that would stay unchanged, if that makes them smaller. Pixels do "
              "not change.");
     d.option("atlas", &TexturesOptions::atlas,
-             "Merges materials of one kind, with their textures in one atlas of at most max_size (4096 by "
-             "default).");
-    d.option(
-         "gutter", &TexturesOptions::gutter,
-         "The number of texels around each texture of an atlas, rounded up to a power of two. The default "
-         "keeps three levels of mipmaps apart.")
+             "Merges materials of the same kind and puts their textures into an atlas of at most max_size "
+             "(4096 by default).");
+    d.option("gutter", &TexturesOptions::gutter,
+             "The width of the border around each texture of an atlas, in texels, rounded up to a power of "
+             "two. The default keeps textures apart in three mipmap levels.")
         .between(1, 256);
     d.option("unroll", &TexturesOptions::unroll,
-             "How many copies of a repeated texture an atlas may have. Materials with more repeats stay.")
+             "The most copies of a repeated texture in an atlas. Materials with more repeats are not merged.")
         .between(1, 1024);
     d.option("timeout", &TexturesOptions::timeout,
              "Time limit in seconds for ktx or toktx per image. The run fails when it is exceeded.")

@@ -21,15 +21,14 @@ The ground is at 0 along the up axis, or along +Z if the up axis is unknown.
 The bounding box of the parts covers what viewers draw. Skinned and morphed parts count in their default
 pose, and animated nodes at their largest scale. Hidden parts and lower levels of detail do not count.
 A skinned part is moved in its bind pose together with its skeleton, and keeps its skin.
-With place or crs, the scene becomes geocentric (ECEF, EPSG:4978), in metres, with z as the up axis of its
-numbers.
-Globe viewers such as CesiumJS then show a tileset of it at its place.
-place moves the scene as a whole: its origin comes to the given place, with its y axis along the heading.
-crs converts every vertex from projected coordinates, exactly to less than a millimetre, and turns normals.
-ETRS89 counts as WGS84, from which it differs by less than a metre.
-Heights count from the ellipsoid.
-If they count from the geoid, add its height with geoid.
-Coordinates that cannot be in the system, such as degrees, are refused (E-CRS).
+place and crs make the scene geocentric (ECEF, EPSG:4978), in metres. They set its up axis to z.
+Globe viewers such as CesiumJS then show its tileset in the right place.
+place moves the whole scene: its origin to the given place, and its y axis along the heading.
+crs converts every vertex from projected coordinates, with an error below a millimetre, and turns normals.
+ETRS89 is treated as WGS84. They differ by less than a metre.
+Heights are above the ellipsoid.
+If your heights are above the geoid, set geoid to its height above the ellipsoid.
+Coordinates outside the system, such as degrees, are refused (E-CRS).
 Cameras, lights, empty nodes and animations of a glTF file move with its parts, if all of its parts move.)";
 
 } // namespace facetmill::help::transform

@@ -67,18 +67,16 @@ void declare_globe(Declare<TransformOptions>& d) {
                      "place: {lat: 48.86, lon: 2.29, height: 80m}");
     d.option(
          "crs", &TransformOptions::crs,
-         "The coordinate system of the scene, for example EPSG:25832. Converts the coordinates to "
-         "geocentric coordinates. Known are UTM (EPSG:32601 to 32660, 32701 to 32760 and 25828 to 25838) and "
-         "Web Mercator (EPSG:3857).")
+         "The coordinate system of the scene, for example EPSG:25832. The coordinates become geocentric. You "
+         "can give UTM (EPSG:32601 to 32660, 32701 to 32760, 25828 to 25838) or Web Mercator (EPSG:3857).")
         .also_called("epsg srs from_crs projection");
     d.choice<TransformOptions::Target>(
          "to", &TransformOptions::to,
          {{"ecef", TransformOptions::Target::ecef, "geocentric coordinates on WGS84 (EPSG:4978)"}},
          "The coordinate system of the result, for crs.")
         .also_called("to_crs target");
-    d.option(
-         "geoid", &TransformOptions::geoid,
-         "For crs: the height of the geoid above the ellipsoid, which is added to heights above the geoid.")
+    d.option("geoid", &TransformOptions::geoid,
+             "The height of the geoid above the ellipsoid. crs adds it to the heights of the scene.")
         .also_called("undulation");
 }
 

@@ -44,9 +44,10 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
     d.object("orientation", &TransformReport::orientation, "The result of orient_for, measured before fit.",
              declare_orientation)
         .only_when("orient_for is printing and the scene has faces");
-    d.object("globe", &TransformReport::globe,
-             "The place on the globe: of the scene's origin for place, of the centre of its box for crs.",
-             declare_place_on_globe)
+    d.object(
+         "globe", &TransformReport::globe,
+         "The position on the globe: the scene's origin with place, the centre of its bounding box with crs.",
+         declare_place_on_globe)
         .only_when("place or crs is given");
     d.field("unit", &TransformReport::unit, "The unit of the scene after this stage, or unknown.");
     d.field("up", &TransformReport::up, "The up axis after this stage, or unknown.");

@@ -292,7 +292,7 @@ struct TransformStage : StageOf<run> {
     }
     std::optional<std::string> why_not_on_cells() const override {
         if (o.orient_for != TransformOptions::Purpose::none) return "orient_for needs all faces in memory";
-        if (!o.crs.empty()) return "crs converts every vertex, and cells move as a whole";
+        if (!o.crs.empty()) return "crs converts every vertex, but cells only move as a whole";
         if (o.bake) return "bake applies node transforms, and cells have no nodes";
         return {};
     }

@@ -294,8 +294,7 @@ void each_limit(Look&& look) {
                "their factor, or in more than a twentieth of their texels.",
                partial_metals});
     look(Limit{"moved_roots", scene, &L::moved_roots,
-               "1 if the only node at the top of the scene has a translation, a rotation or a scale. Several "
-               "nodes may be anywhere.",
+               "1 if the only root node with meshes has a translation, a rotation or a scale. Otherwise 0.",
                moved_roots});
     look(Limit{"pivot", scene, &L::pivot,
                "The distance of the origin from the centre of the bounding box, or of its bottom, whichever "

@@ -4,13 +4,13 @@ namespace facetmill {
 
 const RegisterMessages volume_messages{
     {"E-VOLUME",
-     "`volume` cannot compare the surfaces. One of them has sheets above each other, or both have no common "
-     "place inside the footprint.",
+     "`volume` cannot compare the surfaces. One of them has sheets above each other, or they do not overlap "
+     "inside the footprint.",
      "Select the ground with `only`, or `orient` a surface that overhangs. Run `facetmill info` to print the "
      "bounds.",
      {ErrorKind::stage, ErrorKind::usage}},
     {"W-VOLUME-MISSING",
-     "A part of the footprint of `volume` has no surface, so it is compared with nothing and adds no volume.",
+     "A part of the footprint of `volume` has no surface. It is not compared and adds no volume.",
      "Use a smaller footprint, or close holes with `clean: {holes: minimal}`."},
 };
 

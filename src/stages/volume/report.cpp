@@ -31,7 +31,7 @@ ReportedSide reported(const VolumeSide& side, bool solid) {
 
 void declare_side(DeclareFields<ReportedSide>& d) {
     d.field("volume", &ReportedSide::volume, "The volume.").unit("cubic scene units");
-    d.field("area", &ReportedSide::area, "The area in the plane.")
+    d.field("area", &ReportedSide::area, "The projected area.")
         .unit("square scene units")
         .only_when(no_solid);
     d.field("mean", &ReportedSide::mean, "The mean depth: the volume divided by the area.")
@@ -76,22 +76,22 @@ void declare_areas(DeclareFields<VolumeReport>& d) {
     };
     area(
         "compared_area", [](const VolumeResult& r) { return r.compared; },
-        "The area in the plane with both surfaces, or with the scene and the level.");
+        "The projected area that was compared.");
     area(
         "equal_area", [](const VolumeResult& r) { return r.level; },
-        "The area in the plane where both have the same height.");
+        "The projected area where both have the same height.");
     area(
         "footprint_area", [](const VolumeResult& r) { return r.footprint; },
         "The area inside the footprint. Without a footprint, the area that the scene covers.");
     area(
         "missing_area", [](const VolumeResult& r) { return r.missing; },
-        "The area of the footprint without a surface in the scene.");
+        "The area of the footprint that the scene does not cover.");
     d.field(
          "missing_in_other",
          [](const VolumeReport& r) {
              return r.level ? std::nullopt : std::optional(r.result.missing_in_other);
          },
-         "The area of the footprint without a surface in the other file.")
+         "The area of the footprint that the other surface does not cover.")
         .unit("square scene units")
         .only_when("with is given");
     area(
@@ -127,7 +127,7 @@ void warn_of_missing(const VolumeReport& report, Context& context) {
     const auto warn = [&](double area, const char* where) {
         if (!(area > least * r.footprint)) return;
         context.warn("W-VOLUME-MISSING",
-                     fmt::format("volume: {} of the {} ({}) have no surface in {} and are not compared",
+                     fmt::format("volume: {} of the {} ({}) has no surface in {} and is not compared",
                                  with_unit(area, report.unit, "2"),
                                  report.has_footprint ? "footprint" : "scene",
                                  percentage(100 * area / r.footprint), where),

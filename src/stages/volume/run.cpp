@@ -31,10 +31,9 @@ void declare(Declare<VolumeOptions>& d) {
              "The mesh file of the surface to compare with, instead of a level.")
         .also_called(with_synonyms)
         .also_called("design reference");
-    d.option(
-         "footprint", &VolumeOptions::footprint,
-         "The polygon to compare in: a GeoJSON, WKT or DXF file, WKT text, a ring of points, or a list of "
-         "rings, as for crop.")
+    d.option("footprint", &VolumeOptions::footprint,
+             "The polygon that limits the comparison: a GeoJSON, WKT or DXF file, WKT text, a ring of "
+             "points, or a list of rings, as for crop.")
         .also_called("polygon outline boundary inside");
     declare_view_axis(d, &VolumeOptions::axis);
 }
@@ -77,8 +76,8 @@ void refuse_disjoint(const VolumeReport& report, const std::optional<Footprint>&
     const std::string mesh = bounds_text(scene, axis, context, bounds);
     if (footprint && !(r.missing < r.footprint))
         throw Error(ErrorKind::stage, "E-VOLUME",
-                    fmt::format("volume: the scene has no surface in the footprint: it reaches from {}, and "
-                                "the scene from {}",
+                    fmt::format("volume: the scene has no surface in the footprint: the footprint reaches "
+                                "from {}, the scene from {}",
                                 bounds_of(*footprint).text(), mesh),
                     hint_for_missed(bounds_of(*footprint), bounds));
     throw Error(ErrorKind::stage, "E-VOLUME",
