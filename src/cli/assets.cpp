@@ -13,8 +13,8 @@ void add_asset_options(Arguments& arguments, AssetOptions& options) {
                   "A file of names, or -. It contains one name per line, or names that end with NUL.");
     arguments.add(
         "--table", &options.sources.table,
-        "A CSV file with a header, or a YAML list of maps: one row per asset, one column per param. Or\na "
-        "GeoJSON: one asset per feature, with the params feature (its polygon as WKT) and name.");
+        "A CSV file with a header, or a YAML list of maps: one row per asset, one column per param.\n"
+        "Or a GeoJSON: one asset per feature, with the params feature (its polygon as WKT) and name.");
     arguments.add("--base", &options.sources.base,
                   "The input folder whose structure is mirrored. Default: the part of a pattern before "
                   "its\nwildcards.");

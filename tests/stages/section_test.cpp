@@ -181,7 +181,7 @@ TEST_CASE("section draws contours of a terrain over each other, without warnings
 
 TEST_CASE("a profile is upright", "[stages]") {
     CHECK(test::refusal_of("section", "{plane: z=50%, layout: profile}", scene_of(shapes::grid(4, 4)))
-              .starts_with("usage [E-SECTION] the plane of a profile is not vertical"));
+              .starts_with("stage [E-SECTION] the plane of a profile is not vertical"));
     CHECK(test::refusal_of("section", "{plane: x=50%, exaggeration: 2}", scene_of(shapes::grid(4, 4)))
               .find("layout: profile") != std::string::npos);
     const auto run = run_stage("section", "{plane: y=50%, layout: profile, exaggeration: 5}",

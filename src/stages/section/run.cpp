@@ -58,7 +58,7 @@ Stack stack_for(const SectionOptions& o, const Scene& scene, ExtentOf&& extent, 
 Vec3 up_of(const Scene& scene) { return scene.up == UpAxis::y ? Vec3{0, 1, 0} : Vec3{0, 0, 1}; }
 
 /// The default is in the middle. Contours start at 0 instead, so that their heights are multiples of the
-/// spacing. Throws a usage error (E-SECTION) for a profile whose plane is not upright.
+/// spacing. Throws a stage error (E-SECTION) for a profile whose plane is not vertical.
 Plane plane_for(const SectionOptions& o, const Scene& scene, Context& context) {
     using Kind = io::DrawingLayout::Kind;
     if (!o.plane && o.layout == Kind::contours && o.spacing && !o.count) return {up_of(scene), {}, 0};
@@ -67,7 +67,7 @@ Plane plane_for(const SectionOptions& o, const Scene& scene, Context& context) {
     middle.through.kind = PlanePlace::Kind::centre;
     const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
     if (o.layout == Kind::profile && dot(plane.normal, up_of(scene)) != 0)
-        throw Error(ErrorKind::usage, "E-SECTION", "the plane of a profile is not vertical",
+        throw Error(ErrorKind::stage, "E-SECTION", "the plane of a profile is not vertical",
                     scene.up == UpAxis::y
                         ? "give, for example, plane: x=50%, or a normal without a y component"
                         : "give, for example, plane: x=50%, or a normal without a z component");
