@@ -14,7 +14,7 @@ void add_asset_options(Arguments& arguments, AssetOptions& options) {
     arguments.add(
         "--table", &options.sources.table,
         "A CSV file with a header, or a YAML list of maps: one row per asset, one column per param.\n"
-        "Or a GeoJSON: one asset per feature, with the params feature (its polygon as WKT) and name.");
+        "Or a GeoJSON: one asset per feature, with the params feature (a polygon as WKT) and name.");
     arguments.add("--base", &options.sources.base,
                   "The input folder whose structure is mirrored. Default: the part of a pattern before "
                   "its\nwildcards.");
