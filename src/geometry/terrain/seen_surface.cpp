@@ -126,7 +126,7 @@ bool covers_by_side(SeenSurface& s) {
     Contours outline = seen_outline(s, false);
     const WoundAreas areas = areas_in(outline);
     const double all = area_of_seen(s);
-    if (areas.up + areas.down <= most_doubled * all && all > 0) {
+    if (all > 0 && std::isfinite(all) && areas.up + areas.down <= most_doubled * all) {
         s.sign = s.turn;
         s.cover = Cover::solid;
         return true;

@@ -95,9 +95,12 @@ Unit unit_of_step(std::string_view file) {
     if (at == file.npos) return Unit::unknown;
     std::string_view list = file.substr(at + context.size());
     constexpr std::size_t most = 1000;
+    constexpr int most_units = 16; // each is sought in the whole file
     list = list.substr(0, std::min(list.find(')'), most));
-    for (std::size_t next = 0; (next = list.find('#', next)) != list.npos; ++next) {
+    std::size_t next = 0;
+    for (int k = 0; k < most_units && (next = list.find('#', next)) != list.npos; ++k, ++next) {
         const std::size_t end = list.find_first_not_of("0123456789", next + 1);
+        if (end == next + 1) continue; // no number
         const std::string_view definition = entity(file, list.substr(next, end - next));
         if (definition.find("LENGTH_UNIT") != definition.npos) return unit_of_entity(definition);
     }

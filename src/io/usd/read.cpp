@@ -252,6 +252,8 @@ class Reader {
             mesh.positions.push_back({points[i], points[i + 1], points[i + 2]});
         const auto corners = indices(prim, "faceVertexIndices", mesh.positions.size());
         if (!corners) refuse("has indices beyond its points");
+        placed_ += corners->size();
+        if (placed_ > most_placed) beyond_limit(name_, "its references repeat too many faces");
         const auto sizes = numbers(prim, "faceVertexCounts");
         if (std::any_of(sizes.begin(), sizes.end(), [](double size) { return size != 3; }) ||
             3 * sizes.size() != corners->size())
@@ -262,7 +264,8 @@ class Reader {
 
     std::vector<Prim> prims_;
     const std::string& name_;
-    std::size_t most_, used_ = 0;
+    static constexpr std::size_t most_placed = std::size_t{1} << 28; // corners: 1 GiB of indices
+    std::size_t most_, used_ = 0, placed_ = 0;
     std::vector<Transform> worlds_;
     std::vector<bool> hidden_;
     std::map<std::size_t, std::vector<std::size_t>> meshes_; ///< by their parents
