@@ -18,10 +18,10 @@ struct Cell {
 using Row = std::vector<Cell>;
 
 /// Reads a table. YAML (.yaml, .yml) is a list of maps. GeoJSON (.geojson) has a row per feature: `feature`,
-/// its polygon as WKT, and `name`, its property name or id, its own id, or its number. Other files are CSV according to RFC 4180 (Y.
-/// Shafranovich, "Common format and MIME type for comma-separated values (CSV) files", 2005) with a heading.
-/// The separator is the first comma, semicolon or tab in the heading. Throws a malformed-input error
-/// (E-TABLE), and a missing-file error without a file.
+/// its polygon as WKT, and `name`, its property name or id, its own id, or its number. Other files are CSV
+/// according to RFC 4180 (Y. Shafranovich, "Common format and MIME type for comma-separated values (CSV)
+/// files", 2005) with a heading. The separator is the first comma, semicolon or tab in the heading. Throws a
+/// malformed-input error (E-TABLE), and a missing-file error without a file.
 [[nodiscard]] std::vector<Row> read_params_table(const std::filesystem::path& file);
 
 } // namespace facetmill::batch

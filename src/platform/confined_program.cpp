@@ -98,8 +98,9 @@ class Listener {
                const Function<void(std::span<const std::byte>)>& on_output) {
         std::vector<std::byte> room(std::size_t{1} << 20);
         while (output || messages) {
-            std::array<pollfd, 3> ready{
-                {{output.number(), POLLIN, 0}, {messages.number(), POLLIN, 0}, {socket_.number(), POLLIN, 0}}};
+            std::array<pollfd, 3> ready{{{output.number(), POLLIN, 0},
+                                         {messages.number(), POLLIN, 0},
+                                         {socket_.number(), POLLIN, 0}}};
             constexpr int pause = 100; // milliseconds
             ::poll(ready.data(), ready.size(), pause);
             if (ready[2].revents != 0) return How::deserted;

@@ -134,7 +134,8 @@ TEST_CASE("contours lie over each other, to scale, with their heights", "[io]") 
 
 TEST_CASE("a profile runs from 0, with exaggerated elevations", "[io]") {
     for (const Vec3 normal : {Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
-        const Drawing drawing = slope({normal, {0, 5200004, 0}, 0}, {0}, {DrawingLayout::Kind::profile, 100, 10});
+        const Drawing drawing =
+            slope({normal, {0, 5200004, 0}, 0}, {0}, {DrawingLayout::Kind::profile, 100, 10});
         const Paper paper(drawing);
         CHECK(paper.bounds().min == Vec3{0, 4000, 0});
         CHECK(paper.bounds().max == Vec3{8, 4040, 0});
