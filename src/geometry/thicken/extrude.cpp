@@ -6,6 +6,7 @@
 #include "geometry/terrain/terrain.hpp"
 #include "geometry/thicken/doubled.hpp"
 #include "mesh/face.hpp"
+#include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
 #include "parallel/parallel.hpp"
 
@@ -69,22 +70,16 @@ SurfaceToExtrude look_along(const Mesh& mesh, const ExtrudeSettings& s, ExtrudeR
 
 /// The lowest vertex that is connected to each by edges along the axis, so that both end at the same place.
 std::vector<Index> joined_along(const Mesh& mesh, const SurfaceToExtrude& surface, std::size_t axis) {
-    std::vector<Index> root(mesh.vertex_count());
-    std::iota(root.begin(), root.end(), Index{0});
-    const auto find = [&](Index v) {
-        while (root[v] != v) v = root[v] = root[root[v]];
-        return v;
-    };
+    DisjointSets joined(mesh.vertex_count());
     const std::size_t u = axis == 0 ? 1 : 0, w = axis == 2 ? 1 : 2;
     for (Index f = 0; f < mesh.face_count(); ++f)
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
             const Index a = mesh.vertex(c), b = mesh.vertex(next_corner(mesh, f, c));
             const Vec3 &p = surface.world[a], &q = surface.world[b];
-            if (p[u] != q[u] || p[w] != q[w]) continue;
-            const Index ra = find(a), rb = find(b);
-            root[std::max(ra, rb)] = std::min(ra, rb);
+            if (p[u] == q[u] && p[w] == q[w]) joined.join(a, b);
         }
-    for (Index v = 0; v < root.size(); ++v) root[v] = find(v);
+    std::vector<Index> root(mesh.vertex_count());
+    for (Index v = 0; v < root.size(); ++v) root[v] = joined.find(v);
     return root;
 }
 

@@ -44,12 +44,6 @@ std::array<double, Size> numbers(const Json& object, const char* key, std::array
     return otherwise;
 }
 
-std::optional<std::size_t> index(const Json& object, const char* key) {
-    const Json& value = member(object, key);
-    if (!value.is_number_unsigned()) return {};
-    return value.get<std::size_t>();
-}
-
 std::string text(const Json& object, const char* key) {
     const Json& value = member(object, key);
     return value.is_string() ? value.get<std::string>() : std::string();
@@ -128,7 +122,8 @@ class MaterialWriter {
     /// The shader with the texture coordinates of a texture.
     std::string coordinates(const Json& info, const std::string& shader) {
         const Json& moved = extension(info, "KHR_texture_transform");
-        const std::size_t set = index(moved, "texCoord").value_or(index(info, "texCoord").value_or(0));
+        const std::size_t set =
+            gltf::index_at(moved, "texCoord").value_or(gltf::index_at(info, "texCoord").value_or(0));
         const std::string variable = set == 0 ? "st" : fmt::format("st{}", set);
         if (readers_.insert(variable).second)
             reader("reader_" + variable, "float2", "float2", variable.c_str());
@@ -153,14 +148,14 @@ class MaterialWriter {
     /// Writes a shader that samples a texture: result = scale * texel + bias. False without an image.
     bool texture(const Json& info, const std::string& shader, const Factor& scale, const Factor& bias,
                  bool is_colour) {
-        const auto number_of_texture = index(info, "index");
+        const auto number_of_texture = gltf::index_at(info, "index");
         if (!number_of_texture) return false;
         const std::string file = to_.file_of(*number_of_texture);
         if (file.empty()) return false;
         const std::string at = coordinates(info, shader);
         const Json& document = to_.source_.json();
         const Json& all = member(document, "samplers");
-        const auto sampler = index(document["textures"][*number_of_texture], "sampler");
+        const auto sampler = gltf::index_at(document["textures"][*number_of_texture], "sampler");
         const Json how = sampler && all.is_array() && *sampler < all.size() ? all[*sampler] : Json();
         layer_.open("def Shader", shader, "");
         layer_.line("uniform token info:id = \"UsdUVTexture\"");
@@ -305,9 +300,9 @@ std::string Materials::file_of(std::size_t texture) {
     if (!textures.is_array() || texture >= textures.size()) return {};
     const Json& chosen = textures[texture];
     std::vector<std::size_t> sources; // the plain one first, which is the fallback of the others
-    if (const auto plain = index(chosen, "source")) sources.push_back(*plain);
+    if (const auto plain = gltf::index_at(chosen, "source")) sources.push_back(*plain);
     for (const auto& [name, value] : member(chosen, "extensions").items())
-        if (const auto other = index(value, "source")) sources.push_back(*other);
+        if (const auto other = gltf::index_at(value, "source")) sources.push_back(*other);
     for (const std::size_t image : sources) {
         if (image >= images) continue;
         if (std::string name = add_image(image); !name.empty()) return name;
@@ -319,7 +314,7 @@ std::string Materials::add_image(std::size_t image) {
     const auto [at, is_new] = image_names_.try_emplace(image);
     if (!is_new) return at->second;
     const Json& json = source_.json()["images"][image];
-    const auto view = index(json, "bufferView");
+    const auto view = gltf::index_at(json, "bufferView");
     const Json& views = member(source_.json(), "bufferViews");
     if (!view || !views.is_array() || *view >= views.size()) return {};
     const Span stored = source_.view(*view);

@@ -7,18 +7,6 @@ namespace facetmill::io::usd {
 
 namespace {
 
-std::optional<std::size_t> index_in(const Json& owner, const char* key, std::size_t count) {
-    if (!owner.is_object()) return {};
-    const auto at = owner.find(key);
-    if (at == owner.end() || !at->is_number_unsigned() || at->get<std::size_t>() >= count) return {};
-    return at->get<std::size_t>();
-}
-
-std::size_t count_of_list(const Json& document, const char* list) {
-    const auto at = document.find(list);
-    return at != document.end() && at->is_array() ? at->size() : 0;
-}
-
 std::vector<std::size_t> children_of(const Json& owner, const char* key, std::size_t nodes) {
     std::vector<std::size_t> all;
     const auto at = owner.find(key);
@@ -94,16 +82,16 @@ std::optional<std::string> variable_of(const std::string& name) {
 
 Nodes::Nodes(gltf::Source& source, Materials& materials, std::string root)
     : source_(source), json_(source.json()), materials_(materials), root_(std::move(root)),
-      uses_(count_of_list(json_, "meshes")), shared_names_(uses_.size()) {
+      uses_(gltf::count_of(json_, "meshes")), shared_names_(uses_.size()) {
     for (const char* name : {"Materials", "Meshes"}) layer_.take(name);
 }
 
 std::vector<Nodes::Root> Nodes::roots() const {
-    const std::size_t nodes = count_of_list(json_, "nodes"), scenes = count_of_list(json_, "scenes");
+    const std::size_t nodes = gltf::count_of(json_, "nodes"), scenes = gltf::count_of(json_, "scenes");
     std::vector<bool> below(nodes);
     std::vector<Root> all;
     if (scenes > 0) {
-        const std::size_t shown = index_in(json_, "scene", scenes).value_or(0);
+        const std::size_t shown = gltf::index_at(json_, "scene", scenes).value_or(0);
         for (const std::size_t root : children_of(json_["scenes"][shown], "nodes", nodes)) {
             all.push_back({root, true});
             below[root] = true;
@@ -117,7 +105,7 @@ std::vector<Nodes::Root> Nodes::roots() const {
 }
 
 void Nodes::write() {
-    const std::size_t nodes = count_of_list(json_, "nodes");
+    const std::size_t nodes = gltf::count_of(json_, "nodes");
     if (nodes == 0) { // meshes of a document without nodes are at the origin
         for (std::size_t mesh = 0; mesh < uses_.size(); ++mesh) put_mesh(mesh);
         return;
@@ -127,7 +115,7 @@ void Nodes::write() {
 
 void Nodes::write_nodes(std::size_t nodes) {
     for (std::size_t n = 0; n < nodes; ++n)
-        if (const auto mesh = index_in(json_["nodes"][n], "mesh", uses_.size())) ++uses_[*mesh];
+        if (const auto mesh = gltf::index_at(json_["nodes"][n], "mesh", uses_.size())) ++uses_[*mesh];
     struct Step {
         std::size_t node;
         bool ends; ///< its children are written
@@ -155,7 +143,7 @@ void Nodes::open_node(const Json& node, std::size_t index, bool shown) {
     layer_.open("def Xform", text_at(node, "name"), fmt::format("node_{}", index));
     if (!shown || is_hidden(node)) layer_.line("token visibility = \"invisible\"");
     put_transform(node);
-    if (const auto mesh = index_in(node, "mesh", uses_.size())) put_mesh(*mesh);
+    if (const auto mesh = gltf::index_at(node, "mesh", uses_.size())) put_mesh(*mesh);
 }
 
 void Nodes::put_transform(const Json& node) {
@@ -217,7 +205,7 @@ void Nodes::put_primitive(Layer& layer, const std::string& name, const Json& pri
     VertexColours used;
     if (colours && colours->components >= 3) used.colour = !is_all_one(*colours, 0, 3);
     if (colours && colours->components == 4) used.alpha = !is_all_one(*colours, 3, 4);
-    const auto material = index_in(primitive, "material", count_of_list(json_, "materials"));
+    const auto material = gltf::index_at(primitive, "material", gltf::count_of(json_, "materials"));
     const MaterialUse* bound = material ? &materials_.use(*material, used) : nullptr;
     std::vector<std::string> metadata;
     if (bound) metadata.emplace_back("prepend apiSchemas = [\"MaterialBindingAPI\"]");
@@ -258,7 +246,7 @@ void Nodes::put_primitive(Layer& layer, const std::string& name, const Json& pri
 }
 
 std::optional<Attribute> Nodes::numbers_of(const Json& attributes, const char* name, std::size_t count) {
-    const auto accessor = index_in(attributes, name, count_of_list(json_, "accessors"));
+    const auto accessor = gltf::index_at(attributes, name, gltf::count_of(json_, "accessors"));
     if (!accessor) return {};
     Attribute numbers = gltf::decode_numbers(source_, *accessor);
     if (numbers.size() != count) return {};

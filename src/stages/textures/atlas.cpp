@@ -211,8 +211,7 @@ std::vector<AtlasTile> AtlasMaker::tiles_of(const AtlasGroup& group) const {
                         fmt::join(c.look.emissive, ","), c.look.metalness, c.look.roughness,
                         c.look.normal_scale, c.look.occlusion_strength);
         AtlasTile tile;
-        for (const auto* one :
-             {&c.look.base, &c.look.normal, &c.look.rough, &c.look.occlusion, &c.look.emission}) {
+        for (const auto* one : c.look.textures()) {
             key += *one ? fmt::format(" {} {} {}", (*one)->image, int((*one)->sampling.wrap_u),
                                       int((*one)->sampling.wrap_v))
                         : " -";

@@ -70,7 +70,7 @@ std::vector<Index> separate(Mesh& mesh, const std::vector<Index>& of_primitive) 
 /// How far whole textures may move coordinates without a visible change: 1, 2 if mirrored, 0 if clamped.
 double period(const io::AtlasMaterial& look, TextureWrap Texture::*wrap) {
     double period = 1;
-    for (const auto* one : {&look.base, &look.normal, &look.rough, &look.occlusion, &look.emission}) {
+    for (const auto* one : look.textures()) {
         if (!*one) continue;
         const TextureWrap mode = (*one)->sampling.*wrap;
         if (mode == TextureWrap::clamp) return 0;

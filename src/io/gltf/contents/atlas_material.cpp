@@ -118,7 +118,7 @@ class AtlasReader {
 
     void compare_textures() {
         const AtlasTexture* first = out_.any();
-        for (const auto* one : {&out_.base, &out_.normal, &out_.rough, &out_.occlusion, &out_.emission}) {
+        for (const auto* one : out_.textures()) {
             if (!*one) continue;
             if (!same_coordinates((*one)->sampling, first->sampling))
                 keep_apart("its textures use different texture coordinates");

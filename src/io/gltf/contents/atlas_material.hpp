@@ -29,9 +29,13 @@ struct AtlasMaterial {
     std::array<double, 3> emissive{0, 0, 0}; ///< with the strength of KHR_materials_emissive_strength
     double metalness = 1, roughness = 1, normal_scale = 1, occlusion_strength = 1;
 
+    /// All textures, present or not.
+    std::array<const std::optional<AtlasTexture>*, 5> textures() const {
+        return {&base, &normal, &rough, &occlusion, &emission};
+    }
     /// The texture whose coordinates and filter all its textures share; null without textures.
     const AtlasTexture* any() const {
-        for (const auto* one : {&base, &normal, &rough, &occlusion, &emission})
+        for (const auto* one : textures())
             if (*one) return &**one;
         return nullptr;
     }
